@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * assemble.h -- from terms at points to a residual vector and a matrix.
+ *
+ * Cells go through in batches of 8, one a SIMD lane.  Of a batch, the fields are interpolated at
+ * the points of all its cells; every term adds its coefficients at the points; then, once,
+ *
+ *     r_i += sum_q w B_i^T s,      K_ij += sum_q w B_i^T D B_j,      B = (value, gradient)
+ *
+ * is formed and scattered.  Arrays over points are [component][n_q * 8], lane = q * 8 + cell. */
+#ifndef ASSEMBLE_ASSEMBLE_H
+#define ASSEMBLE_ASSEMBLE_H
+
+#include "base/value.h"
+#include "space/space.h"
+#include "term/term.h"
+
+typedef double v8 __attribute__((vector_size(64)));
+
+enum { ASSEMBLE_MAX_INPUTS = 32, ASSEMBLE_MAX_TESTS = 16, ASSEMBLE_MAX_USES = 32, ASSEMBLE_PAD = 3 };
+
+/* A term that the case switched on. */
+typedef struct term_use {
+    const term_plugin *plugin;
+    const pf_term *term;
+    void *params;
+    enum term_derivative how;
+    double factor;                     /* 1, or less while it is faded in             */
+    const value *data[TERM_MAX_SLOTS]; /* for PF_DATA slots                           */
+} term_use;
+
+/* One distinct quantity at the points: (field, eval), or data of one use. */
+typedef struct plan_input {
+    int field; /* -1: data */
+    uint32_t eval;
+    int n_comp;
+    size_t at; /* offset in units of n_q v8 */
+    const value *data;
+    v8 *table; /* data that is a function: [batch][n_comp][n_q] */
+} plan_input;
+
+/* One distinct (field, value or gradient) of test functions; trial functions use the same list. */
+typedef struct plan_basis {
+    int field, grad, n_comp;
+    size_t at;
+} plan_basis;
+
+typedef struct plan_use {
+    term_use *use;
+    int in[TERM_MAX_SLOTS];    /* index into input[]                            */
+    int out[TERM_MAX_SLOTS];   /* index into test[]                             */
+    int trial[TERM_MAX_SLOTS]; /* index into trial[], -1 where no unknown        */
+} plan_use;
+
+/* Cells or facets with the same terms on them. */
+typedef struct assembly_class {
+    int where;
+    int64_t n_item;
+    int32_t *cell, *facet; /* of each item; facet[] = local number, all 0 for cells    */
+    int64_t n_batch;
+    int64_t *batch; /* first item of each batch, [n_batch + 1]                  */
+    int n_slab;
+    int64_t *slab; /* first batch of each slab, [n_slab + 2]; the last range is
+                      the interface, done after the slabs by one thread         */
+    int n_q;
+    fe_rule rule[6]; /* [0], or one per local facet                              */
+    double tangent[6][2][3];
+    int orient[6];
+    double *n_ref[6][3]; /* [order][q][i], basis of order 1 and 2 at the points       */
+    double (*dn_ref[6][3])[3];
+
+    int n_use, n_input, n_test, n_trial;
+    plan_use use[ASSEMBLE_MAX_USES];
+    plan_input input[ASSEMBLE_MAX_INPUTS];
+    plan_basis test[ASSEMBLE_MAX_TESTS], trial[ASSEMBLE_MAX_TESTS];
+    size_t block[ASSEMBLE_MAX_TESTS][ASSEMBLE_MAX_TESTS]; /* offset of D block, SIZE_MAX: no coupling */
+    size_t in_size, test_size, block_size, out_size, jac_size, room_size, scratch_size;
+    int order_used[3], grad_used[3];
+    double data_time;
+    int data_ready;
+} assembly_class;
+
+typedef struct assembly {
+    const space *space;
+    int n_thread, n_class;
+    assembly_class *class_;
+    struct workspace *work; /* [n_thread] */
+    arena memory;
+} assembly;
+
+/* What a class is made of. */
+typedef struct assembly_spec {
+    int where;               /* PF_CELL or PF_FACET                                     */
+    int boundary;            /* PF_FACET: boundary name, or -1 for all                  */
+    const uint8_t *facet_on; /* PF_FACET: [mesh->n_facet] 1 = the facet belongs to it   */
+    int n_use;
+    term_use **use;
+} assembly_spec;
+
+/* Where the unknowns stand; all vectors have n_dof entries. */
+typedef struct assembly_state {
+    double t, dt, shift;
+    const double *x, *dot, *old;
+} assembly_state;
+
+int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int n_spec, int n_thread, error *err);
+
+/* residual[n_dof] (of all unknowns, fixed ones too: their rows are reactions) and, unless NULL,
+ * value[nnz] of the matrix over free unknowns; both are overwritten.  With `diagnose` every
+ * term's output is checked for NaN and infinity and the first culprit is named.
+ * ERR_PLUGIN or ERR_CONVERGE (err->retry) if a term fails. */
+int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err);
+
+void assembly_destroy(assembly *a);
+
+/* --- between the files of this folder ------------------------------------------------- */
+
+typedef struct workspace {
+    v8 *x_node;             /* [dim][nodes]                                            */
+    v8 *w, *x, *normal, *h; /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
+    v8 *basis[3][4];        /* [order][value, d/dx, d/dy, d/dz]: [i][n_q], i padded     */
+    v8 *dof;                /* nodal values of one field                               */
+    v8 *in, *test, *block, *out, *jac, *room;
+    v8 *g;         /* one strip of D B_j                                      */
+    v8 *vec, *mat; /* element vector and matrix of one field (pair)            */
+    void *scratch;
+    term_report report;
+    int64_t failed_batch;
+    arena memory;
+} workspace;
+
+int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err);
+int plan_workspace(const assembly *a, workspace *w, error *err);
+int points_data_update(assembly *a, assembly_class *c, workspace *w, double t, error *err);
+void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
+void points_inputs(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                   workspace *w);
+int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                   int with_matrix, int diagnose, workspace *w);
+void element_vector(const assembly *a, const assembly_class *c, int field, workspace *w);
+/* 0 if the fields do not couple. */
+int element_matrix(const assembly *a, const assembly_class *c, int row_field, int col_field, workspace *w);
+
+static inline int assemble_padded(int n)
+{
+    return (n + ASSEMBLE_PAD - 1) / ASSEMBLE_PAD * ASSEMBLE_PAD;
+}
+
+/* Carrier of local node i of a field on a cell (index into the cell's carriers). */
+static inline int assemble_local(const space *s, int field, int i)
+{
+    const fe_cell *type = s->mesh->type;
+
+    return s->field[field].order == 2 ? i : s->field[field].order == 1 ? type->vertex[i] : type->n_node;
+}
+
+#endif

@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Element vectors and matrices of 8 cells at a time.
+ *
+ *     r_i^a    = sum_q w sum_e B_i^e s^{a e}               e = value, d/dx, d/dy, d/dz
+ *     K_ij^ab  = sum_q w sum_e B_i^e sum_f D^{a e, b f} B_j^f
+ *
+ * Entries of D that vanish at all points (most of them do in Navier-Stokes) are found and
+ * skipped.  The inner loop keeps a 3 x 3 tile of K in registers. */
+#include "assemble/assemble.h"
+
+#include <string.h>
+
+static int find_basis(const plan_basis *list, int n, int field, int grad)
+{
+    for (int i = 0; i < n; i++)
+        if (list[i].field == field && list[i].grad == grad)
+            return i;
+    return -1;
+}
+
+void element_vector(const assembly *a, const assembly_class *c, int field, workspace *w)
+{
+    const space_field *f = &a->space->field[field];
+    int dim = a->space->mesh->dim, nq = c->n_q, n = fe_n_basis(a->space->mesh->type, f->order);
+
+    memset(w->vec, 0, (size_t)(f->n_comp * n) * sizeof *w->vec);
+    for (int grad = 0; grad < 2; grad++) {
+        int t = find_basis(c->test, c->n_test, field, grad);
+
+        for (int e = 0; t >= 0 && e < f->n_comp * (grad ? dim : 1); e++) {
+            const v8 *restrict s = w->test + (c->test[t].at + (size_t)e) * (size_t)nq;
+            const v8 *basis = w->basis[f->order][grad ? 1 + e % dim : 0];
+            v8 *r = w->vec + (grad ? e / dim : e) * n;
+
+            for (int i = 0; i < n; i++) {
+                const v8 *restrict b = basis + i * nq;
+                v8 sum = {0};
+
+                for (int q = 0; q < nq; q++)
+                    sum += w->w[q] * b[q] * s[q];
+                r[i] += sum;
+            }
+        }
+    }
+}
+
+static int all_zero(const v8 *d, int n)
+{
+    const double *x = (const double *)d;
+    int any = 0;
+
+    for (int i = 0; i < n * 8; i++)
+        any |= x[i] != 0;
+    return !any;
+}
+
+/* Non-zero entries of D between component a of the rows and b of the columns: d[e][f]. */
+static int coefficients(const assembly_class *c, int row_field, int col_field, int a, int b, int dim,
+                        const workspace *w, const v8 *d[4][4])
+{
+    int any = 0;
+
+    memset(d, 0, 16 * sizeof d[0][0]);
+    for (int ge = 0; ge < 2; ge++)
+        for (int gf = 0; gf < 2; gf++) {
+            int t = find_basis(c->test, c->n_test, row_field, ge),
+                r = find_basis(c->trial, c->n_trial, col_field, gf);
+
+            if (t < 0 || r < 0 || c->block[t][r] == SIZE_MAX)
+                continue;
+            for (int e = 0; e < (ge ? dim : 1); e++)
+                for (int f = 0; f < (gf ? dim : 1); f++) {
+                    int row = ge ? a * dim + e : a, col = gf ? b * dim + f : b;
+                    const v8 *at =
+                        w->block + (c->block[t][r] + (size_t)(row * c->trial[r].n_comp + col)) * (size_t)c->n_q;
+
+                    if (all_zero(at, c->n_q))
+                        continue;
+                    d[ge ? e + 1 : 0][gf ? f + 1 : 0] = at;
+                    any = 1;
+                }
+        }
+    return any;
+}
+
+/* g[e][j][q] = w sum_f D^{e f} B_j^f for three columns j. */
+static void strip(const v8 *d[4][4], v8 *const *basis, int j0, int nq, int dim, const v8 *w, v8 *g)
+{
+    for (int e = 0; e <= dim; e++)
+        for (int j = 0; j < 3; j++) {
+            v8 *restrict to = g + (e * 3 + j) * nq;
+            int first = 1;
+
+            for (int f = 0; f <= dim; f++) {
+                const v8 *restrict de = d[e][f], *restrict b = basis[f] + (j0 + j) * nq;
+
+                if (!de)
+                    continue;
+                for (int q = 0; q < nq; q++)
+                    to[q] = first ? w[q] * de[q] * b[q] : to[q] + w[q] * de[q] * b[q];
+                first = 0;
+            }
+        }
+}
+
+/* A 3 x 3 tile of K: sum_e sum_q B_i^e g_j^e. */
+static void tile(const int *row_used, v8 *const *basis, int i0, int nq, int dim, const v8 *g, v8 *k, int n_col)
+{
+    v8 s[3][3] = {{{0}}};
+
+    for (int e = 0; e <= dim; e++) {
+        const v8 *restrict b = basis[e] + i0 * nq, *restrict h = g + e * 3 * nq;
+
+        if (!row_used[e])
+            continue;
+        for (int q = 0; q < nq; q++) {
+            v8 b0 = b[q], b1 = b[nq + q], b2 = b[2 * nq + q];
+            v8 g0 = h[q], g1 = h[nq + q], g2 = h[2 * nq + q];
+
+            s[0][0] += b0 * g0, s[0][1] += b0 * g1, s[0][2] += b0 * g2;
+            s[1][0] += b1 * g0, s[1][1] += b1 * g1, s[1][2] += b1 * g2;
+            s[2][0] += b2 * g0, s[2][1] += b2 * g1, s[2][2] += b2 * g2;
+        }
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            k[i * n_col + j] = s[i][j];
+}
+
+int element_matrix(const assembly *as, const assembly_class *c, int row_field, int col_field, workspace *w)
+{
+    const space *s = as->space;
+    const space_field *rf = &s->field[row_field], *cf = &s->field[col_field];
+    int dim = s->mesh->dim, nq = c->n_q, coupled = 0;
+    int n_row = assemble_padded(fe_n_basis(s->mesh->type, rf->order));
+    int n_col = assemble_padded(fe_n_basis(s->mesh->type, cf->order));
+
+    for (int a = 0; a < rf->n_comp; a++)
+        for (int b = 0; b < cf->n_comp; b++) {
+            v8 *k = w->mat + (a * cf->n_comp + b) * n_row * n_col;
+            const v8 *d[4][4];
+            int row_used[4];
+
+            if (!coefficients(c, row_field, col_field, a, b, dim, w, d)) {
+                memset(k, 0, (size_t)(n_row * n_col) * sizeof *k);
+                continue;
+            }
+            coupled = 1;
+            for (int e = 0; e < 4; e++)
+                row_used[e] = d[e][0] || d[e][1] || d[e][2] || d[e][3];
+            for (int j = 0; j < n_col; j += 3) {
+                strip(d, w->basis[cf->order], j, nq, dim, w->w, w->g);
+                for (int i = 0; i < n_row; i += 3)
+                    tile(row_used, w->basis[rf->order], i, nq, dim, w->g, k + i * n_col + j, n_col);
+            }
+        }
+    return coupled;
+}

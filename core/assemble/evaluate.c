@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Terms at the points of a batch: their outputs are added up per test function, their
+ * derivatives per pair of test and trial function. */
+#include "assemble/assemble.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void add_output(const assembly_class *c, const plan_use *p, double *const *out, int dim, workspace *w)
+{
+    const pf_term *t = p->use->term;
+    size_t ld = (size_t)c->n_q * PF_LANES;
+
+    for (uint32_t o = 0; o < t->n_out; o++) {
+        double *restrict to = (double *)(w->test + c->test[p->out[o]].at * (size_t)c->n_q);
+        const double *restrict from = out[o];
+        int n = t->out[o].eval == PF_DIV ? dim : term_components(t->out[o].shape, dim);
+
+        for (int k = 0; k < n; k++) { /* q div v is q I : grad v */
+            double *restrict row = to + (size_t)(t->out[o].eval == PF_DIV ? k * dim + k : k) * ld;
+            const double *restrict add = from + (size_t)(t->out[o].eval == PF_DIV ? 0 : k) * ld;
+
+            for (size_t i = 0; i < ld; i++)
+                row[i] += p->use->factor * add[i];
+        }
+    }
+}
+
+/* One Jacobian block, jac[oc][ic], into D[test][trial]; divergences spread over the diagonal. */
+static void add_block(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
+                      size_t ld, double *block)
+{
+    int oc = out->eval == PF_DIV ? dim : term_components(out->shape, dim);
+    int ic = in->eval == PF_DIV ? dim : term_components(in->shape, dim);
+    int jc = in->eval == PF_DIV ? 1 : ic;
+
+    for (int a = 0; a < oc; a++)
+        for (int b = 0; b < ic; b++) {
+            int row = out->eval == PF_DIV ? a * dim + a : a, col = in->eval == PF_DIV ? b * dim + b : b;
+            const double *restrict from =
+                jac + (size_t)((out->eval == PF_DIV ? 0 : a) * jc + (in->eval == PF_DIV ? 0 : b)) * ld;
+            double *restrict to = block + (size_t)(row * n_trial + col) * ld;
+
+            for (size_t i = 0; i < ld; i++)
+                to[i] += factor * from[i];
+        }
+}
+
+static int add_jacobian(const assembly_class *c, const plan_use *p, const pf_batch *b, const double *const *in,
+                        int dim, workspace *w)
+{
+    const pf_term *t = p->use->term;
+    double *jac[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
+    size_t ld = b->ld, used = 0;
+    double *at = (double *)w->jac;
+    int status;
+
+    for (uint32_t o = 0; o < t->n_out; o++)
+        for (uint32_t k = 0; k < t->n_in; k++) {
+            jac[o * t->n_in + k] = p->trial[k] >= 0 ? at + used : NULL;
+            used += (size_t)(term_components(t->out[o].shape, dim) * term_components(t->in[k].shape, dim)) * ld;
+        }
+    memset(w->jac, 0, used * sizeof(double));
+    status = term_jacobian(t, p->use->how, b, in, jac, w->room);
+    for (uint32_t o = 0; o < t->n_out && !status; o++)
+        for (uint32_t k = 0; k < t->n_in; k++) {
+            double factor = p->use->factor * (t->in[k].eval == PF_DOT ? b->shift : 1);
+            size_t block;
+
+            if (p->trial[k] < 0 || factor == 0)
+                continue;
+            block = c->block[p->out[o]][p->trial[k]];
+            if (block != SIZE_MAX)
+                add_block(&t->out[o], &t->in[k], c->trial[p->trial[k]].n_comp, factor, jac[o * t->n_in + k], dim,
+                          ld, (double *)(w->block + block * (size_t)c->n_q));
+        }
+    return status;
+}
+
+/* The first number of an output that is none. */
+static int find_nan(const plan_use *p, const pf_batch *b, double *const *out, const char *what, term_report *r)
+{
+    const pf_term *t = p->use->term;
+
+    for (uint32_t o = 0; o < t->n_out; o++)
+        for (size_t i = 0, n = (size_t)term_components(t->out[o].shape, (int)b->dim) * b->ld; i < n; i++)
+            if (!isfinite(out[o][i])) {
+                size_t l = i % b->ld;
+
+                r->status = PF_FAIL;
+                snprintf(r->text, sizeof r->text, "term %s.%s: %s \"%s\" is %g at x = (%.6g, %.6g%s%.6g), t = %.6g",
+                         r->plugin, r->term, what, t->out[o].name, out[o][i], b->x[l], b->x[b->ld + l],
+                         b->dim == 3 ? ", " : "; ", b->dim == 3 ? b->x[2 * b->ld + l] : 0.0, b->t);
+                return 1;
+            }
+    return 0;
+}
+
+int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                   int with_matrix, int diagnose, workspace *w)
+{
+    int dim = a->space->mesh->dim;
+    size_t nq = (size_t)c->n_q, ld = nq * PF_LANES;
+    pf_batch b = {
+        .size = sizeof b,
+        .dim = (uint32_t)dim,
+        .n = (uint32_t)ld,
+        .ld = (uint32_t)ld,
+        .t = s->t,
+        .dt = s->dt,
+        .shift = s->shift,
+        .x = (double *)w->x,
+        .normal = c->where == PF_FACET ? (double *)w->normal : NULL,
+        .h = (double *)w->h,
+        .scratch = w->scratch,
+        .kernel = &w->report,
+    };
+
+    memset(w->test, 0, c->test_size * nq * sizeof(v8));
+    if (with_matrix)
+        memset(w->block, 0, c->block_size * nq * sizeof(v8));
+    for (int u = 0; u < c->n_use; u++) {
+        const plan_use *p = &c->use[u];
+        const pf_term *t = p->use->term;
+        const double *in[TERM_MAX_SLOTS];
+        double *out[TERM_MAX_SLOTS], *at = (double *)w->out;
+        int status;
+
+        if (p->use->factor == 0)
+            continue;
+        for (uint32_t k = 0; k < t->n_in; k++)
+            in[k] = (double *)(w->in + c->input[p->in[k]].at * nq);
+        for (uint32_t o = 0; o < t->n_out; o++) {
+            out[o] = at;
+            at += (size_t)term_components(t->out[o].shape, dim) * ld;
+        }
+        b.params = p->use->params;
+        w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
+        term_now = (term_breadcrumb){w->report.plugin, t->name, "residual", c->cell[c->batch[batch]]};
+        status = t->residual(&b, in, out);
+        if (!status && diagnose && find_nan(p, &b, out, "output", &w->report))
+            return PF_FAIL;
+        if (!status) {
+            add_output(c, p, out, dim, w);
+            term_now.phase = "Jacobian";
+            if (with_matrix)
+                status = add_jacobian(c, p, &b, in, dim, w);
+        }
+        term_now = (term_breadcrumb){0};
+        if (status) {
+            if (!w->report.status)
+                snprintf(w->report.text, sizeof w->report.text, "term %s.%s returned %d without saying why",
+                         w->report.plugin, w->report.term, status);
+            w->report.status = status;
+            return status;
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What has to be computed at the points of a class of cells or facets: the distinct inputs of
+ * its terms, the distinct test and trial functions, and which of them couple.  Then the order
+ * of the cells: slabs for the threads, and what two slabs share. */
+#include "assemble/assemble.h"
+
+#include <stdint.h>
+#include <string.h>
+
+enum { CELL_DEGREE = 5, FACET_DEGREE = 5 };
+
+static int find_input(assembly_class *c, const space *s, const pf_slot *slot, const value *data, error *err)
+{
+    int f = slot->eval == PF_DATA ? -1 : space_find_field(s, slot->field);
+    plan_input *in;
+
+    for (int i = 0; i < c->n_input; i++)
+        if (c->input[i].field == f && c->input[i].eval == slot->eval && c->input[i].data == data)
+            return i;
+    if (c->n_input == ASSEMBLE_MAX_INPUTS)
+        return -error_set(err, ERR_PLUGIN, "the terms need more than %d different inputs", ASSEMBLE_MAX_INPUTS);
+    in = &c->input[c->n_input];
+    *in = (plan_input){.field = f, .eval = slot->eval, .data = data, .at = c->in_size};
+    in->n_comp = term_components(slot->shape, s->mesh->dim);
+    c->in_size += (size_t)in->n_comp;
+    if (f >= 0) {
+        c->order_used[s->field[f].order] = 1;
+        c->grad_used[s->field[f].order] |= slot->eval == PF_GRAD || slot->eval == PF_DIV;
+    }
+    return c->n_input++;
+}
+
+static int find_basis(assembly_class *c, const space *s, plan_basis *list, int *n, const pf_slot *slot, error *err)
+{
+    int f = space_find_field(s, slot->field), grad = slot->eval == PF_GRAD || slot->eval == PF_DIV;
+    plan_basis *b = &list[*n];
+
+    for (int i = 0; i < *n; i++)
+        if (list[i].field == f && list[i].grad == grad)
+            return i;
+    if (*n == ASSEMBLE_MAX_TESTS)
+        return -error_set(err, ERR_PLUGIN, "the terms need more than %d different test functions",
+                          ASSEMBLE_MAX_TESTS);
+    *b = (plan_basis){.field = f, .grad = grad, .n_comp = s->field[f].n_comp * (grad ? s->mesh->dim : 1)};
+    c->order_used[s->field[f].order] = 1;
+    c->grad_used[s->field[f].order] |= grad;
+    return (*n)++;
+}
+
+static size_t max_size(size_t a, size_t b)
+{
+    return a > b ? a : b;
+}
+
+/* Adds one term; marks the blocks of D that it can fill. */
+static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
+{
+    const pf_term *t = use->term;
+    plan_use *p = &c->use[c->n_use++];
+    size_t out = 0, jac = 0;
+    int dim = s->mesh->dim;
+
+    p->use = use;
+    for (uint32_t k = 0; k < t->n_in; k++) {
+        const pf_slot *slot = &t->in[k];
+
+        p->in[k] = find_input(c, s, slot, use->data[k], err);
+        p->trial[k] = term_is_unknown(slot) ? find_basis(c, s, c->trial, &c->n_trial, slot, err) : -1;
+        if (p->in[k] < 0 || (term_is_unknown(slot) && p->trial[k] < 0))
+            return err->code;
+    }
+    for (uint32_t o = 0; o < t->n_out; o++) {
+        p->out[o] = find_basis(c, s, c->test, &c->n_test, &t->out[o], err);
+        if (p->out[o] < 0)
+            return err->code;
+        out += (size_t)term_components(t->out[o].shape, dim);
+        for (uint32_t k = 0; k < t->n_in; k++) {
+            jac += (size_t)(term_components(t->out[o].shape, dim) * term_components(t->in[k].shape, dim));
+            if (p->trial[k] >= 0 && (!t->depends || t->depends[o * t->n_in + k]))
+                c->block[p->out[o]][p->trial[k]] = 0;
+        }
+    }
+    c->out_size = max_size(c->out_size, out);
+    c->jac_size = max_size(c->jac_size, jac);
+    c->scratch_size = max_size(c->scratch_size, t->scratch_bytes);
+    c->room_size = max_size(c->room_size, term_jacobian_room(t, dim, PF_LANES) / sizeof(v8));
+    return 0;
+}
+
+static int place_rules(assembly *a, assembly_class *c, error *err)
+{
+    const fe_cell *type = a->space->mesh->type;
+    int n_rule = c->where == PF_FACET ? type->n_facet : 1;
+
+    for (int f = 0; f < n_rule; f++) {
+        fe_rule *r = &c->rule[f];
+
+        if (c->where == PF_FACET)
+            TRY(fe_rule_facet(type, f, FACET_DEGREE, r, c->tangent[f], &c->orient[f], err));
+        else
+            TRY(fe_rule_cell(type, CELL_DEGREE, r, err));
+        c->n_q = r->n;
+        for (int order = 0; order < 3; order++) {
+            int n = fe_n_basis(type, order);
+
+            ARENA_NEW(&a->memory, c->n_ref[f][order], r->n * n, err);
+            ARENA_NEW(&a->memory, c->dn_ref[f][order], r->n * n, err);
+            for (int q = 0; q < r->n; q++)
+                fe_basis(type, order, r->x[q], c->n_ref[f][order] + q * n, c->dn_ref[f][order] + q * n);
+        }
+    }
+    return 0;
+}
+
+/* Cells whose carriers only one slab touches; the others make up the interface. */
+static int split_slabs(assembly *a, assembly_class *c, const int32_t *cell, const int32_t *facet, error *err)
+{
+    const space *s = a->space;
+    int64_t at = 0, per = (c->n_item + c->n_slab - 1) / c->n_slab;
+    int32_t *owner;
+    arena scratch = {0};
+
+    if (per < 1)
+        per = 1;
+    owner = arena_alloc(&scratch, (size_t)s->n_carrier, sizeof *owner);
+    if (!owner)
+        return error_memory(err, "slabs", 4.0 * (double)s->n_carrier);
+    for (int64_t i = 0; i < c->n_item && c->n_slab > 1; i++)
+        for (int k = 0; k < s->mesh->type->n_node; k++) {
+            int32_t *o = &owner[space_carrier(s, cell[i], k)], slab = (int32_t)(i / per) + 1;
+
+            *o = *o == 0 || *o == slab ? slab : -1;
+        }
+    for (int slab = 0; slab <= c->n_slab; slab++) { /* the last round takes the interface */
+        int64_t low = slab < c->n_slab ? slab * per : 0, high = slab < c->n_slab ? (slab + 1) * per : c->n_item;
+        int64_t first = at;
+
+        c->slab[slab] = c->n_batch;
+        for (int64_t i = low; i < high && i < c->n_item; i++) {
+            int shared = 0;
+
+            for (int k = 0; k < s->mesh->type->n_node; k++)
+                shared |= owner[space_carrier(s, cell[i], k)] < 0;
+            if (shared != (slab == c->n_slab))
+                continue;
+            if (at == first || (at - c->batch[c->n_batch - 1]) == PF_LANES ||
+                (facet && c->facet[at - 1] != facet[i]))
+                c->batch[c->n_batch++] = at;
+            c->cell[at] = cell[i];
+            c->facet[at++] = facet ? facet[i] : 0;
+        }
+    }
+    c->slab[c->n_slab + 1] = c->n_batch;
+    c->batch[c->n_batch] = c->n_item;
+    arena_free(&scratch);
+    return 0;
+}
+
+static int place_items(assembly *a, assembly_class *c, const assembly_spec *spec, error *err)
+{
+    const mesh *m = a->space->mesh;
+    int32_t *cell, *facet = NULL;
+    int64_t n = 0;
+
+    for (int64_t f = 0; spec->where == PF_FACET && f < m->n_facet; f++)
+        n += spec->facet_on[f];
+    c->n_item = spec->where == PF_FACET ? n : m->n_cell;
+    ARENA_NEW(&a->memory, cell, c->n_item, err);
+    ARENA_NEW(&a->memory, c->cell, c->n_item, err);
+    ARENA_NEW(&a->memory, c->facet, c->n_item, err);
+    ARENA_NEW(&a->memory, c->batch, c->n_item + 1, err);
+    ARENA_NEW(&a->memory, c->slab, c->n_slab + 2, err);
+    if (spec->where == PF_FACET) {
+        ARENA_NEW(&a->memory, facet, c->n_item, err);
+        n = 0;
+        for (int64_t f = 0; f < m->n_facet; f++)
+            if (spec->facet_on[f]) {
+                cell[n] = m->facet[f].cell;
+                facet[n++] = m->facet[f].local;
+            }
+    } else {
+        for (int64_t i = 0; i < m->n_cell; i++)
+            cell[i] = (int32_t)i;
+    }
+    return split_slabs(a, c, cell, facet, err);
+}
+
+int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err)
+{
+    const space *s = a->space;
+    int serial = spec->where == PF_FACET;
+
+    c->where = spec->where;
+    memset(c->block, 0xff, sizeof c->block);
+    for (int i = 0; i < spec->n_use; i++) {
+        if (i == ASSEMBLE_MAX_USES)
+            return error_set(err, ERR_PLUGIN, "more than %d terms act on the same points", ASSEMBLE_MAX_USES);
+        TRY(add_use(c, s, spec->use[i], err));
+    }
+    for (int t = 0; t < c->n_test; t++) {
+        c->test[t].at = c->test_size;
+        c->test_size += (size_t)c->test[t].n_comp;
+        serial |= s->field[c->test[t].field].support != PF_ON_MESH; /* one row for all cells */
+        for (int r = 0; r < c->n_trial; r++)
+            if (c->block[t][r] == 0) {
+                c->block[t][r] = c->block_size;
+                c->block_size += (size_t)(c->test[t].n_comp * c->trial[r].n_comp);
+            }
+    }
+    c->n_slab = serial ? 1 : a->n_thread;
+    TRY(place_rules(a, c, err));
+    TRY(place_items(a, c, spec, err));
+    for (int i = 0; i < c->n_input; i++)
+        if (c->input[i].data && c->input[i].data->f)
+            ARENA_NEW(&a->memory, c->input[i].table, c->n_batch * c->input[i].n_comp * c->n_q, err);
+    return 0;
+}
+
+int plan_workspace(const assembly *a, workspace *w, error *err)
+{
+    const fe_cell *type = a->space->mesh->type;
+    size_t in = 1, test = 1, block = 1, out = 1, jac = 1, room = 1, scratch = 1,
+           n = (size_t)assemble_padded(type->n_node);
+    size_t q = 1, dim = (size_t)type->dim;
+
+    for (int i = 0; i < a->n_class; i++) {
+        const assembly_class *c = &a->class_[i];
+        size_t nq = (size_t)c->n_q;
+
+        q = max_size(q, nq);
+        in = max_size(in, c->in_size * nq);
+        test = max_size(test, c->test_size * nq);
+        block = max_size(block, c->block_size * nq);
+        out = max_size(out, c->out_size * nq);
+        jac = max_size(jac, c->jac_size * nq);
+        room = max_size(room, c->room_size * nq);
+        scratch = max_size(scratch, c->scratch_size);
+    }
+    ARENA_NEW(&w->memory, w->x_node, n * dim, err);
+    ARENA_NEW(&w->memory, w->w, q, err);
+    ARENA_NEW(&w->memory, w->x, q * dim, err);
+    ARENA_NEW(&w->memory, w->normal, q * dim, err);
+    ARENA_NEW(&w->memory, w->h, q, err);
+    for (int order = 0; order < 3; order++)
+        for (size_t k = 0; k <= dim; k++)
+            ARENA_NEW(&w->memory, w->basis[order][k], (size_t)assemble_padded(fe_n_basis(type, order)) * q, err);
+    ARENA_NEW(&w->memory, w->dof, n * dim, err);
+    ARENA_NEW(&w->memory, w->in, in, err);
+    ARENA_NEW(&w->memory, w->test, test, err);
+    ARENA_NEW(&w->memory, w->block, block, err);
+    ARENA_NEW(&w->memory, w->out, out, err);
+    ARENA_NEW(&w->memory, w->jac, jac, err);
+    ARENA_NEW(&w->memory, w->room, room, err);
+    ARENA_NEW(&w->memory, w->g, 4 * ASSEMBLE_PAD * q, err);
+    ARENA_NEW(&w->memory, w->vec, n * dim, err);
+    ARENA_NEW(&w->memory, w->mat, n * n * dim * dim, err);
+    w->scratch = arena_alloc(&w->memory, scratch, 1);
+    return w->scratch ? 0 : error_memory(err, "scratch", (double)scratch);
+}

@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Points of a batch: where they are, their weights, the basis functions and the fields there. */
+#include "assemble/assemble.h"
+
+#include <math.h>
+#include <string.h>
+
+static v8 v8_sqrt(v8 a)
+{
+    for (int l = 0; l < 8; l++)
+        a[l] = sqrt(a[l]);
+    return a;
+}
+
+/* Cell of lane l; lanes past the end repeat the last cell. */
+static int64_t item_of(const assembly_class *c, int64_t batch, int lane)
+{
+    int64_t first = c->batch[batch], last = c->batch[batch + 1] - 1, i = first + lane;
+
+    return i < last ? i : last;
+}
+
+/* Jacobian matrix of the mapping at q, j[a][b] = dx_a / dxi_b, its inverse and determinant. */
+static v8 mapping(int dim, int n_node, const v8 *x_node, const double (*dn)[3], v8 j[3][3], v8 inv[3][3])
+{
+    const v8 zero = {0};
+    v8 det;
+
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++)
+            j[a][b] = zero;
+    for (int a = 0; a < dim; a++)
+        for (int i = 0; i < n_node; i++)
+            for (int b = 0; b < dim; b++)
+                j[a][b] += x_node[a * n_node + i] * dn[i][b];
+    if (dim == 2) {
+        det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+        inv[0][0] = j[1][1] / det, inv[0][1] = -j[0][1] / det;
+        inv[1][0] = -j[1][0] / det, inv[1][1] = j[0][0] / det;
+        return det;
+    }
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) {
+            int p = (b + 1) % 3, q = (b + 2) % 3, r = (a + 1) % 3, t = (a + 2) % 3;
+
+            inv[a][b] = j[p][r] * j[q][t] - j[p][t] * j[q][r]; /* cofactor of (b, a) */
+        }
+    det = j[0][0] * inv[0][0] + j[0][1] * inv[1][0] + j[0][2] * inv[2][0];
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++)
+            inv[a][b] /= det;
+    return det;
+}
+
+/* Area element and outward normal of a facet from the mapped tangents. */
+static v8 facet_measure(int dim, v8 j[3][3], const double tangent[2][3], int orient, v8 n[3])
+{
+    const v8 zero = {0};
+    v8 t[2][3], size;
+
+    for (int s = 0; s < 2; s++)
+        for (int a = 0; a < 3; a++) {
+            t[s][a] = zero;
+            for (int b = 0; b < dim; b++)
+                t[s][a] += j[a][b] * tangent[s][b];
+        }
+    if (dim == 2) {
+        n[0] = t[0][1] * (double)orient;
+        n[1] = -t[0][0] * (double)orient;
+        size = v8_sqrt(n[0] * n[0] + n[1] * n[1]);
+    } else {
+        for (int a = 0; a < 3; a++) {
+            int p = (a + 1) % 3, q = (a + 2) % 3;
+
+            n[a] = (t[0][p] * t[1][q] - t[0][q] * t[1][p]) * (double)orient;
+        }
+        size = v8_sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    }
+    for (int a = 0; a < dim; a++)
+        n[a] /= size;
+    return size;
+}
+
+void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
+{
+    const mesh *m = a->space->mesh;
+    const fe_cell *type = m->type;
+    int dim = m->dim, nq = c->n_q, f = c->facet[c->batch[batch]];
+    v8 h;
+
+    for (int l = 0; l < 8; l++) {
+        int64_t cell = c->cell[item_of(c, batch, l)];
+
+        h[l] = m->h[cell];
+        for (int i = 0; i < type->n_node; i++)
+            for (int k = 0; k < dim; k++)
+                w->x_node[k * type->n_node + i][l] = m->x[(int64_t)m->cell[cell * type->n_node + i] * dim + k];
+    }
+    for (int q = 0; q < nq; q++) {
+        v8 j[3][3], inv[3][3], n[3];
+        v8 det =
+            mapping(dim, type->n_node, w->x_node, (const double(*)[3])c->dn_ref[f][2] + q * type->n_node, j, inv);
+
+        if (c->where == PF_FACET) {
+            det = facet_measure(dim, j, c->tangent[f], c->orient[f], n);
+            for (int k = 0; k < dim; k++)
+                w->normal[k * nq + q] = n[k];
+        }
+        w->w[q] = det * c->rule[f].w[q];
+        w->h[q] = h;
+        for (int k = 0; k < dim; k++) {
+            v8 x = {0};
+
+            for (int i = 0; i < type->n_node; i++)
+                x += w->x_node[k * type->n_node + i] * c->n_ref[f][2][q * type->n_node + i];
+            w->x[k * nq + q] = x;
+        }
+        for (int order = 0; order < 3; order++) {
+            int n_basis = fe_n_basis(type, order);
+
+            for (int i = 0; c->order_used[order] && i < n_basis; i++) {
+                const double *dn = c->dn_ref[f][order][q * n_basis + i];
+                const v8 zero = {0};
+
+                w->basis[order][0][i * nq + q] = zero + c->n_ref[f][order][q * n_basis + i];
+                for (int k = 0; c->grad_used[order] && k < dim; k++) {
+                    v8 g = inv[0][k] * dn[0] + inv[1][k] * dn[1];
+
+                    w->basis[order][k + 1][i * nq + q] = dim == 3 ? g + inv[2][k] * dn[2] : g;
+                }
+            }
+            for (int i = n_basis; c->order_used[order] && i < assemble_padded(n_basis); i++)
+                for (int k = 0; k <= dim; k++)
+                    w->basis[order][k][i * nq + q] = (v8){0};
+        }
+    }
+}
+
+/* Nodal values of a field on the cells of a batch, dof[comp][i]. */
+static void gather(const assembly *a, const assembly_class *c, int64_t batch, int field, const double *x, v8 *dof)
+{
+    const space *s = a->space;
+    int n = fe_n_basis(s->mesh->type, s->field[field].order), n_comp = s->field[field].n_comp;
+    int nodes = s->mesh->type->n_node;
+
+    for (int l = 0; l < 8; l++) {
+        int64_t cell = c->cell[item_of(c, batch, l)];
+
+        for (int i = 0; i < n; i++) {
+            int local = assemble_local(s, field, i);
+            int64_t node = local < nodes ? s->mesh->cell[cell * nodes + local] : s->mesh->n_node;
+            const double *v = x + s->first[field][node];
+
+            for (int k = 0; k < n_comp; k++)
+                dof[k * n + i][l] = v[k];
+        }
+    }
+}
+
+static void interpolate(const workspace *w, const plan_input *in, int order, int n, int n_comp, int nq, int dim)
+{
+    v8 *restrict out = w->in + in->at * (size_t)nq;
+    int grad = in->eval == PF_GRAD, div = in->eval == PF_DIV;
+
+    memset(out, 0, (size_t)(in->n_comp * nq) * sizeof *out);
+    for (int a = 0; a < n_comp; a++)
+        for (int k = grad || div ? 1 : 0; k <= (grad || div ? dim : 0); k++) {
+            v8 *restrict to = out + (grad ? (a * dim + k - 1) * nq : div ? 0 : a * nq);
+
+            if (div && k != a + 1)
+                continue;
+            for (int i = 0; i < n; i++) {
+                v8 u = w->dof[a * n + i];
+                const v8 *restrict b = w->basis[order][k] + i * nq;
+
+                for (int q = 0; q < nq; q++)
+                    to[q] += u * b[q];
+            }
+        }
+}
+
+void points_inputs(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch, workspace *w)
+{
+    const space *sp = a->space;
+    int nq = c->n_q, dim = sp->mesh->dim;
+    const double *gathered = NULL;
+    int gathered_field = -1;
+
+    for (int k = 0; k < c->n_input; k++) {
+        const plan_input *in = &c->input[k];
+        const double *from = in->eval == PF_DOT ? s->dot : in->eval == PF_OLD ? s->old : s->x;
+        v8 *out = w->in + in->at * (size_t)nq;
+
+        if (in->field < 0) {
+            for (int i = 0; i < in->n_comp; i++)
+                for (int q = 0; q < nq; q++)
+                    out[i * nq + q] =
+                        in->table ? in->table[(batch * in->n_comp + i) * nq + q] : (v8){0} + in->data->constant[i];
+            continue;
+        }
+        if (from != gathered || in->field != gathered_field) {
+            gather(a, c, batch, in->field, from, w->dof);
+            gathered = from;
+            gathered_field = in->field;
+        }
+        interpolate(w, in, sp->field[in->field].order, fe_n_basis(sp->mesh->type, sp->field[in->field].order),
+                    sp->field[in->field].n_comp, nq, dim);
+    }
+}
+
+/* Values of the case's functions at all points; once per time, on one thread (Lua has one). */
+int points_data_update(assembly *a, assembly_class *c, workspace *w, double t, error *err)
+{
+    int any = 0, nq = c->n_q, dim = a->space->mesh->dim;
+
+    for (int k = 0; k < c->n_input; k++)
+        any |= c->input[k].table != NULL;
+    if (!any || (c->data_ready && c->data_time == t))
+        return 0;
+    for (int64_t b = 0; b < c->n_batch; b++) {
+        points_geometry(a, c, b, w);
+        for (int k = 0; k < c->n_input; k++) {
+            plan_input *in = &c->input[k];
+
+            for (int q = 0; in->table && q < nq; q++)
+                for (int l = 0; l < 8; l++) {
+                    double x[3] = {0}, v[VALUE_MAX];
+
+                    for (int d = 0; d < dim; d++)
+                        x[d] = w->x[d * nq + q][l];
+                    TRY(value_at(in->data, x, t, v, err));
+                    for (int i = 0; i < in->n_comp; i++)
+                        in->table[(b * in->n_comp + i) * nq + q][l] = v[i];
+                }
+        }
+    }
+    c->data_time = t;
+    c->data_ready = 1;
+    return 0;
+}

@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The loop over batches, and adding element vectors and matrices to the global ones.  Slabs of
+ * cells go to threads; cells that touch two slabs come last, on one thread.  No atomics: the
+ * order of additions depends on nothing but the number of threads. */
+#include "assemble/assemble.h"
+
+#include <string.h>
+
+static void scatter_vector(const assembly *a, const assembly_class *c, int64_t batch, int field, const workspace *w,
+                           double *residual)
+{
+    const space *s = a->space;
+    int n = fe_n_basis(s->mesh->type, s->field[field].order);
+
+    for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++)
+        for (int i = 0, l = (int)(item - c->batch[batch]); i < n; i++) {
+            double *r = residual + s->first[field][space_carrier(s, c->cell[item], assemble_local(s, field, i))];
+
+            for (int k = 0; k < s->field[field].n_comp; k++)
+                r[k] += w->vec[k * n + i][l];
+        }
+}
+
+/* Free columns of a field on a cell: position within the columns of their carrier, or -1. */
+static void columns(const space *s, int64_t cell, int field, int n, int *local, int (*relative)[3])
+{
+    for (int j = 0; j < n; j++) {
+        int32_t carrier;
+
+        local[j] = assemble_local(s, field, j);
+        carrier = space_carrier(s, cell, local[j]);
+        for (int b = 0; b < s->field[field].n_comp; b++) {
+            int32_t f = s->free_of[s->first[field][carrier] + b];
+
+            relative[j][b] = f < 0 ? -1 : (int)(f - s->node_free[carrier]);
+        }
+    }
+}
+
+static void scatter_matrix(const assembly *a, const assembly_class *c, int64_t batch, int row_field, int col_field,
+                           const workspace *w, double *value)
+{
+    const space *s = a->space;
+    int nc = s->cell_carriers, n_row = fe_n_basis(s->mesh->type, s->field[row_field].order);
+    int n_col = fe_n_basis(s->mesh->type, s->field[col_field].order), row_comp = s->field[row_field].n_comp;
+    int col_comp = s->field[col_field].n_comp, pr = assemble_padded(n_row), pc = assemble_padded(n_col);
+
+    for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++) {
+        int l = (int)(item - c->batch[batch]), local[FE_MAX_NODES], relative[FE_MAX_NODES][3];
+        int64_t cell = c->cell[item];
+
+        columns(s, cell, col_field, n_col, local, relative);
+        for (int i = 0; i < n_row; i++) {
+            int li = assemble_local(s, row_field, i);
+            int32_t dof = s->first[row_field][space_carrier(s, cell, li)];
+            const int32_t *pair = s->pair + (cell * nc + li) * nc;
+
+            for (int ra = 0; ra < row_comp; ra++) {
+                int32_t row = s->free_of[dof + ra];
+                double *to;
+
+                if (row < 0)
+                    continue;
+                to = value + s->row[row];
+                for (int b = 0; b < col_comp; b++) {
+                    const v8 *k = w->mat + (ra * col_comp + b) * pr * pc + i * pc;
+
+                    for (int j = 0; j < n_col; j++)
+                        if (relative[j][b] >= 0)
+                            to[pair[local[j]] + relative[j][b]] += k[j][l];
+                }
+            }
+        }
+    }
+}
+
+/* Fields whose test functions the class uses. */
+static int row_fields(const assembly_class *c, int *list)
+{
+    int n = 0;
+
+    for (int t = 0; t < c->n_test; t++) {
+        int seen = 0;
+
+        for (int i = 0; i < n; i++)
+            seen |= list[i] == c->test[t].field;
+        if (!seen)
+            list[n++] = c->test[t].field;
+    }
+    return n;
+}
+
+static int run_batch(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                     int diagnose, workspace *w, double *residual, double *value)
+{
+    int field[ASSEMBLE_MAX_TESTS], n = row_fields(c, field);
+
+    points_geometry(a, c, batch, w);
+    points_inputs(a, c, s, batch, w);
+    if (evaluate_terms(a, c, s, batch, value != NULL, diagnose, w)) {
+        w->failed_batch = batch;
+        return 1;
+    }
+    for (int i = 0; i < n; i++) {
+        element_vector(a, c, field[i], w);
+        scatter_vector(a, c, batch, field[i], w, residual);
+        for (int j = 0; value && j < a->space->n_field; j++)
+            if (element_matrix(a, c, field[i], j, w))
+                scatter_matrix(a, c, batch, field[i], j, w, value);
+    }
+    return 0;
+}
+
+static int report(const workspace *w, const assembly_class *c, error *err)
+{
+    int code = error_set(err, w->report.status > 0 ? ERR_CONVERGE : ERR_PLUGIN, "%s (cells from %d)",
+                         w->report.text, c->cell[c->batch[w->failed_batch]]);
+
+    err->retry = w->report.status > 0;
+    return code;
+}
+
+int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err)
+{
+    memset(residual, 0, (size_t)a->space->n_dof * sizeof *residual);
+    if (value)
+        memset(value, 0, (size_t)a->space->row[a->space->n_free] * sizeof *value);
+    for (int k = 0; k < a->n_class; k++) {
+        assembly_class *c = &a->class_[k];
+
+        TRY(points_data_update(a, c, &a->work[0], s->t, err));
+        for (int i = 0; i < a->n_thread; i++)
+            a->work[i].failed_batch = -1;
+#pragma omp parallel for num_threads(c->n_slab) schedule(static, 1)
+        for (int slab = 0; slab < c->n_slab; slab++)
+            for (int64_t b = c->slab[slab]; b < c->slab[slab + 1]; b++)
+                if (run_batch(a, c, s, b, diagnose, &a->work[slab], residual, value))
+                    break;
+        for (int slab = 0; slab < c->n_slab; slab++)
+            if (a->work[slab].failed_batch >= 0)
+                return report(&a->work[slab], c, err);
+        for (int64_t b = c->slab[c->n_slab]; b < c->n_batch; b++)
+            if (run_batch(a, c, s, b, diagnose, &a->work[0], residual, value))
+                return report(&a->work[0], c, err);
+    }
+    return 0;
+}
+
+int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int n_spec, int n_thread, error *err)
+{
+    memset(a, 0, sizeof *a);
+    a->space = s;
+    a->n_thread = n_thread < 1 ? 1 : n_thread;
+    ARENA_NEW(&a->memory, a->class_, n_spec > 0 ? n_spec : 1, err);
+    ARENA_NEW(&a->memory, a->work, a->n_thread, err);
+    for (a->n_class = 0; a->n_class < n_spec; a->n_class++)
+        TRY(plan_create(a, &a->class_[a->n_class], &spec[a->n_class], err));
+    for (int i = 0; i < a->n_thread; i++)
+        TRY(plan_workspace(a, &a->work[i], err));
+    return 0;
+}
+
+void assembly_destroy(assembly *a)
+{
+    for (int i = 0; a->work && i < a->n_thread; i++)
+        arena_free(&a->work[i].memory);
+    arena_free(&a->memory);
+    memset(a, 0, sizeof *a);
+}

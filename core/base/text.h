@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * text.h -- strings that grow, and the name nearest to a misspelt one. */
+#ifndef BASE_TEXT_H
+#define BASE_TEXT_H
+
+#include <stddef.h>
+
+/* A string that grows; all fields zero is the empty string. */
+typedef struct text {
+    char *s;
+    size_t n, room;
+    int failed; /* memory ran out; s holds what came before */
+} text;
+
+void text_add(text *t, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+void text_json(text *t, const char *s); /* "s", escaped                            */
+void text_number(text *t, double v);    /* shortest form that reads back the same; null if not finite */
+void text_free(text *t);
+
+/* Damerau-Levenshtein distance without case. */
+int text_distance(const char *a, const char *b);
+/* The candidate nearest to name if it is near enough to be a slip, else NULL. */
+const char *text_nearest(const char *name, const char *const *candidate, size_t n);
+
+#endif

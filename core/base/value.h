@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * value.h -- a number or vector that a case gives: constant, or a function of x and t. */
+#ifndef BASE_VALUE_H
+#define BASE_VALUE_H
+
+#include "base/error.h"
+
+enum { VALUE_MAX = 3 };
+
+typedef struct value {
+    int n;                      /* components                                         */
+    double constant[VALUE_MAX]; /* if f is NULL                                       */
+    int free[VALUE_MAX];        /* component is left free (boundary conditions)       */
+    int (*f)(const void *ctx, const double *x, double t, double *out, error *err);
+    const void *ctx;
+} value;
+
+static inline int value_at(const value *v, const double *x, double t, double *out, error *err)
+{
+    if (v->f)
+        return v->f(v->ctx, x, t, out, err);
+    for (int i = 0; i < v->n; i++)
+        out[i] = v->constant[i];
+    return 0;
+}
+
+#endif

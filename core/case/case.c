@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Loading a case, and collecting what is wrong with it. */
+#include "case/case.h"
+
+#include <lauxlib.h>
+
+#include <ctype.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+const case_block *case_find(const case_file *c, const char *kind, int k)
+{
+    for (int i = 0; i < c->n_block; i++)
+        if (strcmp(c->block[i].kind, kind) == 0 && k-- == 0)
+            return &c->block[i];
+    return NULL;
+}
+
+/* Line of `key =` in the source from the block's line on; the block's own if it is not found. */
+static int line_of_key(const case_file *c, const case_block *b, const char *key)
+{
+    const char *s = NULL;
+    size_t n = key ? strlen(key) : 0;
+    int line = 1;
+
+    for (int i = 0; i < c->n_source; i++)
+        if (strcmp(c->source[i].file, b->file) == 0)
+            s = c->source[i].text;
+    for (; s && *s && line < b->line; s++)
+        line += *s == '\n';
+    for (; s && key && *s && line < b->line + 60; s++) {
+        line += *s == '\n';
+        if (strncmp(s, key, n) == 0 && !isalnum((unsigned char)s[-1]) && s[-1] != '_') {
+            const char *t = s + n;
+
+            while (*t == ' ' || *t == '\t')
+                t++;
+            if (*t == '=' && t[1] != '=')
+                return line;
+        }
+    }
+    return b->line;
+}
+
+void case_wrong(case_file *c, const case_block *at, const char *key, const char *fmt, ...)
+{
+    char why[3000];
+    va_list ap;
+
+    va_start(ap, fmt);
+    vsnprintf(why, sizeof why, fmt, ap);
+    va_end(ap);
+    if (at)
+        text_add(&c->errors, "%s%s:%d: %s", c->n_error ? "\n" : "", at->file, line_of_key(c, at, key), why);
+    else
+        text_add(&c->errors, "%s%s: %s", c->n_error ? "\n" : "", c->path, why);
+    c->n_error++;
+}
+
+int case_finish(case_file *c, error *err)
+{
+    if (c->n_error == 0)
+        return 0;
+    return error_set(err, ERR_CASE, "%s", c->errors.s ? c->errors.s : "out of memory");
+}
+
+static int parse_sets(case_file *c, const char *const *set, int n_set, error *err)
+{
+    for (int i = 0; i < n_set; i++) {
+        const char *eq = strchr(set[i], '=');
+        char *name = arena_strdup(&c->memory, set[i]);
+
+        if (!eq || eq == set[i])
+            return error_set(err, ERR_USAGE, "--set %s: expected NAME=VALUE", set[i]);
+        if (i == CASE_MAX_SETS || !name)
+            return error_set(err, ERR_USAGE, "more than %d --set", CASE_MAX_SETS);
+        name[eq - set[i]] = 0;
+        c->set[c->n_set++] = (case_set){name, name + (eq - set[i]) + 1, 0};
+    }
+    return 0;
+}
+
+int case_load(case_file *c, const char *path, const char *const *set, int n_set, error *err)
+{
+    static const char *const once[] = {"mesh", "fluid", "time", "output", "initial", "exact", "solve", "results"};
+
+    memset(c, 0, sizeof *c);
+    c->path = arena_strdup(&c->memory, path);
+    TRY(parse_sets(c, set, n_set, err));
+    TRY(sandbox_open(c, err));
+    TRY(sandbox_run(c, path, err));
+    lua_settop(c->lua, 0);
+    lua_sethook(c->lua, NULL, 0, 0);
+    for (int i = 0; i < c->n_set; i++)
+        if (!c->set[i].used) {
+            const char *name[CASE_MAX_SETS], *near;
+            text t = {0};
+
+            for (int k = 0; k < c->n_param; k++) {
+                name[k] = c->param[k].name;
+                text_add(&t, "%s%s", k ? ", " : "", name[k]);
+            }
+            near = text_nearest(c->set[i].name, name, (size_t)c->n_param);
+            case_wrong(c, NULL, NULL, "--set %s=%s: the case has no parameter \"%s\"%s%s%s\n    its parameters: %s",
+                       c->set[i].name, c->set[i].value, c->set[i].name, near ? "; did you mean \"" : "",
+                       near ? near : "", near ? "\"?" : "", t.s ? t.s : "none");
+            text_free(&t);
+        }
+    for (size_t i = 0; i < sizeof once / sizeof *once; i++)
+        if (case_find(c, once[i], 1))
+            case_wrong(c, case_find(c, once[i], 1), NULL,
+                       "%s: a second block of this kind; the first is in line %d", once[i],
+                       case_find(c, once[i], 0)->line);
+    return 0;
+}
+
+void case_destroy(case_file *c)
+{
+    if (c->lua)
+        lua_close(c->lua);
+    text_free(&c->errors);
+    text_free(&c->printed);
+    arena_free(&c->memory);
+    memset(c, 0, sizeof *c);
+}

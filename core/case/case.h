@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * case.h -- a case file: Lua in a sandbox, collected into blocks, read key by key.
+ *
+ * A case is run once; each of its lines (mesh{}, term "..." {}, ...) leaves a block.  Who needs
+ * a block reads its keys with a reader, which knows for every key what it must be.  What is
+ * wrong is collected, with file and line, and reported all at once by case_finish(). */
+#ifndef CASE_CASE_H
+#define CASE_CASE_H
+
+#include "base/arena.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "base/value.h"
+
+#include <lua.h>
+#include <stddef.h>
+
+enum { CASE_MAX_BLOCKS = 256, CASE_MAX_KEYS = 96, CASE_MAX_SETS = 64, CASE_MAX_SOURCES = 16 };
+
+typedef struct case_block {
+    const char *kind; /* "mesh", "term", ...                     */
+    const char *name; /* "momentum" in term "momentum" {}, or NULL */
+    int ref;          /* its table (or function) in the Lua registry; LUA_NOREF if none */
+    const char *file;
+    int line;
+} case_block;
+
+typedef struct case_set {
+    const char *name, *value;
+    int used;
+} case_set;
+
+typedef struct case_param {
+    const char *name, *doc;
+    char value[64], dflt[64];
+} case_param;
+
+typedef struct case_file {
+    const char *path, *title;
+    lua_State *lua;
+    size_t lua_bytes;
+    int n_block, n_set, n_param, n_source, n_error;
+    case_block block[CASE_MAX_BLOCKS];
+    case_set set[CASE_MAX_SETS];
+    case_param param[CASE_MAX_SETS];
+    struct {
+        const char *file, *text;
+    } source[CASE_MAX_SOURCES];
+    text errors, printed;
+    long budget; /* Lua instructions left, in thousands */
+    int last_line;
+    unsigned long long random;
+    arena memory;
+} case_file;
+
+/* Runs the file; set[] are "NAME=VALUE" of --set.  On error the message is complete. */
+int case_load(case_file *c, const char *path, const char *const *set, int n_set, error *err);
+/* The block of this kind, or NULL; the k-th if several may stand in a case. */
+const case_block *case_find(const case_file *c, const char *kind, int k);
+/* Adds to what is wrong. */
+void case_wrong(case_file *c, const case_block *at, const char *key, const char *fmt, ...)
+    __attribute__((format(printf, 4, 5)));
+/* ERR_CASE with all that was wrong, or 0. */
+int case_finish(case_file *c, error *err);
+void case_destroy(case_file *c);
+
+/* --- reading a block (reader.c) --- */
+
+typedef struct reader {
+    case_file *c;
+    const case_block *b; /* NULL: the block is absent; every key is */
+    const char *what;    /* how messages call it: "fluid", "term \"momentum\"" */
+    int n_key;
+    const char *key[CASE_MAX_KEYS], *doc[CASE_MAX_KEYS];
+} reader;
+
+void reader_open(reader *r, case_file *c, const case_block *b, const char *what);
+/* All readers return 1 if the key is there and right, 0 if absent (the value is left alone), -1 if
+ * wrong (and reported).  low >= high: no bounds. */
+int reader_number(reader *r, const char *key, const char *doc, double low, double high, double *v);
+int reader_integer(reader *r, const char *key, const char *doc, int low, int high, int *v);
+int reader_bool(reader *r, const char *key, const char *doc, int *v);
+int reader_string(reader *r, const char *key, const char *doc, const char **v);
+int reader_choice(reader *r, const char *key, const char *doc, const char *const *choice, int *v);
+int reader_vector(reader *r, const char *key, const char *doc, int n, double *v);
+/* A number or function (n = 1), a vector of numbers, functions and `free`, or one function. */
+int reader_value(reader *r, const char *key, const char *doc, int n, int dim, value *v);
+/* Strings in a list. */
+int reader_strings(reader *r, const char *key, const char *doc, int most, const char **v, int *n);
+/* Leaves the value of the key on the Lua stack if it is a table (then 1) -- pop it. */
+int reader_table(reader *r, const char *key, const char *doc);
+int reader_has(const reader *r, const char *key);
+int reader_required(reader *r, const char *key, int status);
+/* Reports the keys that nobody asked for. */
+void reader_close(reader *r);
+
+/* A Lua function or number on top of the stack as a value; pops it. */
+int case_value(case_file *c, const case_block *b, const char *key, int n, int dim, value *v);
+
+/* --- sandbox (sandbox.c) --- */
+int sandbox_open(case_file *c, error *err);
+int sandbox_run(case_file *c, const char *path, error *err);
+extern const char *const case_prelude;
+
+#endif

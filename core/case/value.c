@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Values of cases: numbers, vectors, and functions f(x, y[, z], t) that return them. */
+#include "case/case.h"
+
+#include <lauxlib.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct lua_value {
+    case_file *c;
+    const case_block *b;
+    const char *key;
+    int n, dim, whole; /* whole: one function returns all components */
+    int ref[VALUE_MAX];
+    double constant[VALUE_MAX];
+} lua_value;
+
+static int wrong_result(const lua_value *v, const double *x, double t, const char *why, error *err)
+{
+    return error_set(err, ERR_CASE, "%s:%d: function \"%s\" at (%.6g, %.6g%s%.6g), t = %.6g: %s", v->b->file,
+                     v->b->line, v->key, x[0], x[1], v->dim == 3 ? ", " : "; ", v->dim == 3 ? x[2] : 0.0, t, why);
+}
+
+/* Calls function `ref`; n results (or a table of n) to out. */
+static int call(const lua_value *v, int ref, int n, const double *x, double t, double *out, error *err)
+{
+    lua_State *l = v->c->lua;
+    int base = lua_gettop(l), status = 0;
+
+    lua_rawgeti(l, LUA_REGISTRYINDEX, ref);
+    for (int k = 0; k < v->dim; k++)
+        lua_pushnumber(l, x[k]);
+    lua_pushnumber(l, t);
+    if (lua_pcall(l, v->dim + 1, n, 0) != LUA_OK) {
+        status = wrong_result(v, x, t, lua_tostring(l, -1) ? lua_tostring(l, -1) : "error", err);
+    } else {
+        int in_table = lua_istable(l, base + 1);
+
+        for (int k = 0; k < n && !status; k++) {
+            char why[100];
+
+            if (in_table)
+                lua_rawgeti(l, base + 1, k + 1);
+            else
+                lua_pushvalue(l, base + 1 + k);
+            out[k] = lua_tonumber(l, -1);
+            if (lua_type(l, -1) != LUA_TNUMBER || !isfinite(out[k])) {
+                snprintf(why, sizeof why, "it must return %d number%s, result %d is %s", n, n > 1 ? "s" : "", k + 1,
+                         lua_type(l, -1) == LUA_TNUMBER ? "not finite" : luaL_typename(l, -1));
+                status = wrong_result(v, x, t, why, err);
+            }
+            lua_pop(l, 1);
+        }
+    }
+    lua_settop(l, base);
+    return status;
+}
+
+static int evaluate(const void *ctx, const double *x, double t, double *out, error *err)
+{
+    const lua_value *v = ctx;
+
+    if (v->whole)
+        return call(v, v->ref[0], v->n, x, t, out, err);
+    for (int k = 0; k < v->n; k++) {
+        out[k] = v->constant[k];
+        if (v->ref[k] != LUA_NOREF)
+            TRY(call(v, v->ref[k], 1, x, t, &out[k], err));
+    }
+    return 0;
+}
+
+static int expected(case_file *c, const case_block *b, const char *key, int n)
+{
+    lua_State *l = c->lua;
+
+    if (n == 1)
+        case_wrong(c, b, key, "%s: \"%s\": expected a number or a function, got %s", b->kind, key,
+                   luaL_typename(l, -1));
+    else
+        case_wrong(c, b, key,
+                   "%s: \"%s\": expected %d components in braces (numbers, functions or free) or a function that "
+                   "returns %d "
+                   "numbers, got %s%s",
+                   b->kind, key, n, n, luaL_typename(l, -1),
+                   lua_istable(l, -1) && (int)lua_rawlen(l, -1) != n ? " of another length" : "");
+    lua_pop(l, 1);
+    return -1;
+}
+
+/* One component from the top of the stack: number, function or free. */
+static int component(lua_State *l, lua_value *v, value *out, int k)
+{
+    v->ref[k] = LUA_NOREF;
+    if (lua_type(l, -1) == LUA_TNUMBER && isfinite(lua_tonumber(l, -1))) {
+        out->constant[k] = v->constant[k] = lua_tonumber(l, -1);
+        lua_pop(l, 1);
+    } else if (lua_isfunction(l, -1)) {
+        v->ref[k] = luaL_ref(l, LUA_REGISTRYINDEX);
+        out->f = evaluate;
+    } else if (lua_islightuserdata(l, -1)) {
+        out->free[k] = 1;
+        lua_pop(l, 1);
+    } else {
+        lua_pop(l, 1);
+        return 0;
+    }
+    return 1;
+}
+
+int case_value(case_file *c, const case_block *b, const char *key, int n, int dim, value *out)
+{
+    lua_State *l = c->lua;
+    lua_value *v = arena_alloc(&c->memory, 1, sizeof *v);
+
+    if (!v) {
+        lua_pop(l, 1);
+        return -1;
+    }
+    *v = (lua_value){.c = c, .b = b, .key = arena_strdup(&c->memory, key), .n = n, .dim = dim};
+    *out = (value){.n = n, .ctx = v};
+    if (lua_isfunction(l, -1)) {
+        v->whole = 1;
+        v->ref[0] = luaL_ref(l, LUA_REGISTRYINDEX);
+        out->f = evaluate;
+        return 1;
+    }
+    if (n == 1) {
+        lua_pushvalue(l, -1);
+        if (!component(l, v, out, 0))
+            return expected(c, b, key, n);
+        lua_pop(l, 1);
+        return 1;
+    }
+    if (!lua_istable(l, -1) || (int)lua_rawlen(l, -1) != n)
+        return expected(c, b, key, n);
+    for (int k = 0; k < n; k++) {
+        lua_rawgeti(l, -1, k + 1);
+        if (!component(l, v, out, k))
+            return expected(c, b, key, n);
+    }
+    lua_pop(l, 1);
+    return 1;
+}

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * plugflow check CASE: all of a run but the solution. */
+#include "cli/cli.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static void print_parameters(const case_file *c)
+{
+    for (int i = 0; i < c->n_param; i++)
+        printf("  --set %s=%s%s%s%s%s\n", c->param[i].name, c->param[i].value, *c->param[i].doc ? "    " : "",
+               c->param[i].doc, "    default ", c->param[i].dflt);
+}
+
+static int check(const problem *p, const linear *l, int json)
+{
+    double matrix = 16.0 * (double)p->space.row[p->space.n_free];
+
+    if (json) {
+        printf("{\"cells\": %lld, \"unknowns\": %lld, \"free_unknowns\": %lld, \"matrix_entries\": %lld, "
+               "\"factor_entries\": %.6g, \"factor_bytes\": %.6g, \"factor_flops\": %.6g}\n",
+               (long long)p->mesh.n_cell, (long long)p->space.n_dof, (long long)p->space.n_free,
+               (long long)p->space.row[p->space.n_free], l->stats.cost.fill, l->stats.cost.bytes,
+               l->stats.cost.flops);
+        return 0;
+    }
+    printf("%s: ok\n", p->c->path);
+    print_parameters(p->c);
+    printf("  mesh: %lld cells (%s), %lld nodes, boundaries:", (long long)p->mesh.n_cell, p->mesh.type->name,
+           (long long)p->mesh.n_node);
+    for (int i = 0; i < p->mesh.n_name; i++)
+        printf(" %s", p->mesh.name[i]);
+    printf("\n  terms:");
+    for (int i = 0; i < p->n_use; i++)
+        printf(" %s.%s", p->use[i].plugin->d.name, p->use[i].term->name);
+    printf("\n  fields:");
+    for (int f = 0; f < p->space.n_field; f++)
+        printf(" %s (%s, %s)", p->space.field[f].name, p->space.field[f].doc, p->space.field[f].unit);
+    printf("\n  unknowns: %lld, of which %lld are free; matrix: %lld entries, %.3g MB\n", (long long)p->space.n_dof,
+           (long long)p->space.n_free, (long long)p->space.row[p->space.n_free], matrix / 1e6);
+    printf("  factors (predicted): %.3g entries, %.3g MB, %.3g operations, about %.2g s each\n", l->stats.cost.fill,
+           l->stats.cost.bytes / 1e6, l->stats.cost.flops, l->stats.cost.flops / 1e10);
+    return 0;
+}
+
+int cli_check(const cli *o, error *err)
+{
+    cli_case *k = malloc(sizeof *k);
+    int status;
+
+    if (!k)
+        return error_memory(err, "case", sizeof *k);
+    status = cli_open(o, k, err);
+    if (!status)
+        status = problem_initial(&k->p, err);
+    if (!status) {
+        assembly_state s = {.t = k->p.time.start, .dt = 1, .x = k->p.x, .dot = k->p.system.step, .old = k->p.x};
+
+        s.shift = k->p.time.unsteady ? 1.5 / k->p.time.step : 0;
+        status = assembly_run(&k->p.system.assembly, &s, k->p.system.residual, k->p.system.linear.value, 1, err);
+    }
+    if (!status)
+        status = linear_predict(&k->p.system.linear, err);
+    if (!status)
+        check(&k->p, &k->p.system.linear, o->json);
+    cli_close(k);
+    free(k);
+    return status;
+}

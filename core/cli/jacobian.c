@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * plugflow jacobian CASE: the assembled matrix against differences of the assembled residual,
+ * per pair of fields, at a random state of the real problem. */
+#include "cli/cli.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DIRECTIONS = 4 };
+
+/* Reproducible numbers in [-1, 1]. */
+static double pseudo_random(unsigned *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return (double)*seed / 2147483648.0 - 1;
+}
+
+/* Sums over rows of field f of (J d - dR)^2 and (J d)^2 for directions d in field g. */
+static int compare(problem *p, double shift, double *x, double *d, double *plus, double *minus, int g, double *diff,
+                   double *size, unsigned *seed, error *err)
+{
+    const space *s = &p->space;
+    newton_system *sys = &p->system;
+    const double h = 1e-6;
+
+    for (int k = 0; k < DIRECTIONS; k++) {
+        assembly_state st = {
+            .t = p->time.start, .dt = p->time.step, .shift = shift, .x = x, .dot = sys->step, .old = x};
+
+        for (int64_t i = 0; i < s->n_dof; i++)
+            d[i] = s->dof_field[i] == g && !s->fixed[i] ? pseudo_random(seed) : 0;
+        for (int sign = -1; sign <= 1; sign += 2) {
+            for (int64_t i = 0; i < s->n_dof; i++) {
+                x[i] += sign * h * d[i];
+                sys->step[i] = shift * x[i];
+            }
+            TRY(assembly_run(&sys->assembly, &st, sign < 0 ? minus : plus, NULL, 0, err));
+            for (int64_t i = 0; i < s->n_dof; i++)
+                x[i] -= sign * h * d[i];
+        }
+        for (int64_t i = 0; i < s->n_free; i++) {
+            int f = s->dof_field[s->dof_of[i]];
+            double jd = 0, dr = (plus[s->dof_of[i]] - minus[s->dof_of[i]]) / (2 * h);
+
+            for (int64_t e = s->row[i]; e < s->row[i + 1]; e++)
+                jd += sys->linear.value[e] * d[s->dof_of[s->col[e]]];
+            diff[f] += (jd - dr) * (jd - dr);
+            size[f] += dr * dr;
+        }
+    }
+    return 0;
+}
+
+static int all_pairs(problem *p, error *err)
+{
+    const space *s = &p->space;
+    newton_system *sys = &p->system;
+    double shift = p->time.unsteady ? 1.5 / p->time.step : 0, *x, *d, *plus, *minus;
+    unsigned seed = 1;
+    int wrong = 0;
+
+    ARENA_NEW(&p->memory, x, s->n_dof, err);
+    ARENA_NEW(&p->memory, d, s->n_dof, err);
+    ARENA_NEW(&p->memory, plus, s->n_dof, err);
+    ARENA_NEW(&p->memory, minus, s->n_dof, err);
+    for (int64_t i = 0; i < s->n_dof; i++) {
+        x[i] = p->x[i] + pseudo_random(&seed);
+        sys->step[i] = shift * x[i];
+    }
+    TRY(assembly_run(
+        &sys->assembly,
+        &(assembly_state){
+            .t = p->time.start, .dt = p->time.step, .shift = shift, .x = x, .dot = sys->step, .old = x},
+        sys->residual, sys->linear.value, 1, err));
+    for (int g = 0; g < s->n_field; g++) {
+        double diff[SPACE_MAX_FIELDS] = {0}, size[SPACE_MAX_FIELDS] = {0};
+
+        TRY(compare(p, shift, x, d, plus, minus, g, diff, size, &seed, err));
+        for (int f = 0; f < s->n_field; f++) {
+            double e = sqrt(diff[f]), n = sqrt(size[f]);
+            int ok = e <= 1e-6 * n || e <= 1e-7 * (1 + n);
+
+            wrong += !ok;
+            printf("  %s  d R_%s / d %s  %s%.1e\n", ok ? "ok   " : "WRONG", s->field[f].name, s->field[g].name,
+                   n == 0 && ok ? "zero, " : "differences agree to ", n > 0 ? e / n : e);
+        }
+    }
+    return wrong ? error_set(err, ERR_PLUGIN,
+                             "%d blocks are wrong; plugflow test PLUGIN tests the terms one by one", wrong)
+                 : 0;
+}
+
+int cli_jacobian(const cli *o, error *err)
+{
+    cli_case *k = malloc(sizeof *k);
+    int status;
+
+    if (!k)
+        return error_memory(err, "case", sizeof *k);
+    status = cli_open(o, k, err);
+    if (!status)
+        status = problem_initial(&k->p, err);
+    if (!status)
+        status = all_pairs(&k->p, err);
+    cli_close(k);
+    free(k);
+    return status;
+}

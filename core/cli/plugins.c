@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * plugflow plugins; plugflow describe [TERM]. */
+#include "cli/cli.h"
+
+#include <stdio.h>
+#include <string.h>
+
+int cli_plugins(const cli *o, error *err)
+{
+    static registry r;
+    int refused = 0;
+
+    TRY(registry_create(&r, o->plugin, o->n_plugin, err));
+    TRY(registry_scan(&r, err));
+    for (int i = 0; i < r.n_file; i++) {
+        const term_file *f = &r.file[i];
+
+        if (f->refused) {
+            refused++;
+            continue;
+        }
+        if (f->plugin.path) {
+            printf("%-16s %-8s %s\n%-16s terms:", f->plugin.d.name, f->plugin.d.version, f->path, "");
+            for (uint32_t k = 0; k < f->plugin.d.n_term; k++)
+                printf(" %s", f->plugin.term[k].name);
+            printf("\n");
+        } else if (f->solver) {
+            printf("%-16s %-8s %s\n%-16s linear solver: %s\n", f->solver->name, f->solver->version, f->path, "",
+                   f->solver->doc);
+        } else {
+            printf("%-16s %-8s %s\n%-16s reads meshes:", f->mesh_reader->name, f->mesh_reader->version, f->path,
+                   "");
+            for (const char *const *s = f->mesh_reader->suffix; *s; s++)
+                printf(" %s", *s);
+            printf("\n");
+        }
+    }
+    printf("\nlooked in:\n");
+    for (int i = 0; i < r.n_dir; i++)
+        printf("  %s\n", r.dir[i]);
+    for (int i = 0; i < r.n_file; i++)
+        if (r.file[i].refused)
+            printf("%s  %s\n", refused-- > 0 && i >= 0 ? "refused:\n" : "", r.file[i].refused);
+    registry_destroy(&r);
+    return 0;
+}
+
+static void print_slots(const char *title, const pf_slot *s, uint32_t n)
+{
+    static const char *const shape[] = {"", "scalar", "vector", "tensor", "spin"};
+
+    for (uint32_t i = 0; i < n; i++)
+        printf("      %-7s %-10s %s%s%s, %s\n", i ? "" : title, s[i].name, term_eval_name(s[i].eval),
+               s[i].field ? " of " : "", s[i].field ? s[i].field : "", shape[s[i].shape]);
+}
+
+static void print_params(const pf_term *t)
+{
+    for (uint32_t i = 0; i < t->n_param; i++) {
+        const pf_param *p = &t->param[i];
+
+        printf("      %-7s %-10s %s, %s", i ? "" : "key", p->name, p->doc, p->unit);
+        if (p->flags & PF_REQUIRED)
+            printf("; required");
+        else if (p->type == PF_T_CHOICE)
+            printf("; default \"%s\"", p->choice[(int)p->dflt]);
+        else
+            printf("; default %g", p->dflt);
+        if (p->min < p->max)
+            printf("; %g to %g", p->min, p->max);
+        if (p->flags & PF_SHARED)
+            printf("; from fluid{}");
+        printf("\n");
+    }
+}
+
+static void print_term(const term_plugin *p, const pf_term *t)
+{
+    printf("  %s.%s%s\n      weak    %s\n      source  %s\n      points  %s; Jacobian %s\n", p->d.name, t->name,
+           t->flags & PF_OPTIONAL ? " (only if its own line switches it on)" : "", t->doc, t->cite,
+           t->where == PF_FACET   ? "boundary facets"
+           : t->where == PF_FLUID ? "fluid"
+                                  : "all cells",
+           t->jacobian     ? "by hand"
+           : t->residual_c ? "by complex step"
+                           : "by differences");
+    print_slots("in", t->in, t->n_in);
+    print_slots("out", t->out, t->n_out);
+    print_params(t);
+}
+
+static void print_plugin(const term_plugin *p, const char *only)
+{
+    printf("%s %s: %s (%s)\n", p->d.name, p->d.version, p->d.doc ? p->d.doc : "", p->d.license);
+    for (uint32_t i = 0; i < p->d.n_field; i++)
+        printf("  field %s: %s, %s, %s of order %u\n", p->d.field[i].name, p->d.field[i].doc, p->d.field[i].unit,
+               p->d.field[i].shape == PF_VECTOR ? "vector" : "scalar", p->d.field[i].order);
+    for (uint32_t i = 0; i < p->d.n_term; i++)
+        if (!only || strcmp(only, p->term[i].name) == 0)
+            print_term(p, &p->term[i]);
+}
+
+int cli_describe(const cli *o, error *err)
+{
+    static registry r;
+    const term_plugin *p;
+    char name[128];
+    const char *dot;
+
+    TRY(registry_create(&r, o->plugin, o->n_plugin, err));
+    if (o->n_operand == 0) {
+        TRY(registry_scan(&r, err));
+        for (int i = 0; i < r.n_file; i++)
+            if (!r.file[i].refused && r.file[i].plugin.path)
+                print_plugin(&r.file[i].plugin, NULL);
+    } else {
+        dot = strchr(o->operand[0], '.');
+        snprintf(name, sizeof name, "%.*s", dot ? (int)(dot - o->operand[0]) : 127, o->operand[0]);
+        TRY(registry_equation(&r, name, &p, err));
+        print_plugin(p, dot ? dot + 1 : NULL);
+    }
+    registry_destroy(&r);
+    return 0;
+}

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * picture_parts.h -- what the files of the picture share: where the picture looks, its
+ * boundary lines, its pixels, its figure. */
+#ifndef IO_PICTURE_PARTS_H
+#define IO_PICTURE_PARTS_H
+
+#include "base/arena.h"
+#include "base/error.h"
+#include "io/colour_map.h"
+#include "io/vtu_read.h"
+
+#include <cairo.h>
+
+/* The plane of the picture: coordinates of space across[0] to the right and across[1] up. */
+typedef struct picture_view {
+    int dim;
+    int across[2];
+    int normal; /* 3D: the coordinate that is at on the plane */
+    double at;
+    double named; /* at as it was asked for, for the title    */
+} picture_view;
+
+/* A point of a subdivided cell with the values that are drawn there. */
+typedef struct picture_point {
+    double x[3];
+    double value[3]; /* the coloured one; then the arrow's two components in the plane */
+} picture_point;
+
+/* picture_patch.c -- cells cut into small simplices. */
+
+enum { PATCH_MAX_2D = 48, PATCH_MAX_3D = 12, PATCH_MAX_POINTS = 2401 };
+
+/* What is drawn: component 0..2 of the field, or 3 for the magnitude (of a scalar: itself). */
+typedef struct picture_field {
+    const vtu_array *colour, *arrow; /* arrow: NULL for none */
+    int component;
+} picture_field;
+
+typedef struct picture_patch {
+    int n;                                 /* pieces along an edge                                                */
+    picture_point point[PATCH_MAX_POINTS]; /* (n+1)^dim, first coordinate fastest */
+} picture_patch;
+
+typedef void (*picture_triangle)(void *to, const picture_point *a, const picture_point *b, const picture_point *c);
+
+/* Smallest and largest coordinates of the cell's nodes. */
+void patch_box(const vtu_file *v, size_t c, double low[3], double high[3]);
+
+/* Cuts cell c into pieces, n along an edge, and hands out the triangles of the picture's plane:
+ * the pieces in 2D, their sections in 3D. */
+void patch_triangles(const vtu_file *v, const picture_view *view, const picture_field *f, size_t c, int n,
+                     picture_patch *patch, picture_triangle take, void *to);
+
+/* Section of the segments between the points (n = 3 or 4) with the plane: 0, 3 or 4 points. */
+int patch_section(const picture_view *view, const picture_point *const *p, int n, picture_point section[4]);
+
+/* picture_outline.c -- the lines where the domain ends, in the plane of the picture. */
+
+typedef struct picture_outline {
+    size_t n, room;
+    double (*segment)[4]; /* from (0, 1) to (2, 3), m, size n        */
+    double low[2], high[2];
+} picture_outline;
+
+int outline_make(const vtu_file *v, const picture_view *view, picture_outline *o, error *err);
+void outline_free(picture_outline *o);
+
+/* picture_raster.c -- the values at the pixels. */
+
+typedef struct picture_raster {
+    int w, h;
+    double left, top; /* place of the corner, m                              */
+    double scale[2];  /* pixels per metre, across and up                     */
+    float *value[3];  /* as in picture_point, size w * h; NAN: outside */
+    int n_value;      /* 1, or 3 with arrows                          */
+    double low, high; /* of the value coloured; low > high: there is none */
+} picture_raster;
+
+/* Fills r, of which w, h, left, top, scale and n_value are given; the values come from a. */
+int raster_make(const vtu_file *v, const picture_view *view, const picture_field *f, picture_raster *r, arena *a,
+                error *err);
+
+/* picture_figure.c -- layout, axes and bar. */
+
+typedef struct picture_text {
+    char title[512], x[128], y[128], bar[192];
+} picture_text;
+
+typedef struct picture_axis {
+    double low, high;
+    double first, step; /* ticks first + i * step, i < n              */
+    int n, decimals;
+    int power; /* labels are multiples of ten to this power            */
+} picture_axis;
+
+typedef struct picture_figure {
+    double em;            /* size of the text, pixels                     */
+    double width, height; /* of the figure                                */
+    double x, y, w, h;    /* the frame of the domain, whole pixels        */
+    double bar_x, bar_y, bar_w, bar_h;
+    double bar_text; /* size of the bar's name: long ones are small */
+    picture_axis across, up, bar;
+} picture_figure;
+
+/* Places the domain's box low..high (m) and the colours' range into a figure of the width. */
+void figure_place(picture_figure *g, const picture_text *text, const double low[2], const double high[2],
+                  const double range[2], int width);
+
+typedef struct picture_content {
+    const picture_figure *figure;
+    const picture_text *text;
+    const picture_outline *outline;
+    const picture_raster *raster;
+    colour_map map;
+    int arrows;
+} picture_content;
+
+/* Draws all of it; cr's status tells of errors. */
+void figure_draw(cairo_t *cr, const picture_content *c);
+
+/* picture_axis.c -- round numbers. */
+
+/* Ticks at multiples of 1, 2, 2.5 or 5 times a power of ten, about target and not more than
+ * most of them. */
+void axis_ticks(picture_axis *a, double low, double high, int target, int most);
+/* Label of tick i; what all labels are to be multiplied with, or an empty string. */
+void axis_label(const picture_axis *a, int i, char *s, size_t size);
+void axis_factor(const picture_axis *a, char *s, size_t size);
+/* The number with at most six digits, as it is written in text. */
+void axis_number(double v, char *s, size_t size);
+
+#endif

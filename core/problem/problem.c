@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * From a case to a system of equations: read everything, complain about everything, then build. */
+#include "problem/problem.h"
+
+#include <string.h>
+
+static int make_periodic(problem *p, error *err)
+{
+    for (int i = 0; i < p->n_line; i++) {
+        const char *const *name = p->line[i].periodic;
+        int a, b;
+
+        if (!name[0])
+            continue;
+        a = mesh_find_name(&p->mesh, name[0]);
+        b = mesh_find_name(&p->mesh, name[1]);
+        if (a >= 0 && b >= 0)
+            TRY(mesh_make_periodic(&p->mesh, a, b, err));
+    }
+    return 0;
+}
+
+/* One class for the cells, one for each boundary line with fluxes, one for terms on all facets. */
+static int make_system(problem *p, error *err)
+{
+    assembly_spec spec[PROBLEM_MAX_LINES + 2] = {{0}};
+    term_use *cell[ASSEMBLE_MAX_USES], *facet[ASSEMBLE_MAX_USES];
+    uint8_t *all;
+    int n = 1;
+
+    spec[0] = (assembly_spec){.where = PF_CELL, .use = cell};
+    for (int i = 0; i < p->n_use; i++) {
+        term_use *u = &p->use[i];
+
+        if (u->term->where == PF_CELL || u->term->where == PF_FLUID)
+            cell[spec[0].n_use++] = u;
+        else if (!(u->term->flags & PF_BY_BOUNDARY))
+            facet[spec[1].n_use++] = u;
+        if (u->term->flags & PF_CONTINUATION)
+            p->continuation.n_use++;
+    }
+    ARENA_NEW(&p->memory, p->continuation.use, p->n_use + 1, err);
+    p->continuation.n_use = 0;
+    for (int i = 0; i < p->n_use; i++)
+        if (p->use[i].term->flags & PF_CONTINUATION)
+            p->continuation.use[p->continuation.n_use++] = &p->use[i];
+    if (spec[1].n_use) {
+        ARENA_NEW(&p->memory, all, p->mesh.n_facet, err);
+        memset(all, 1, (size_t)p->mesh.n_facet);
+        spec[n++] = (assembly_spec){.where = PF_FACET, .use = facet, .n_use = spec[1].n_use, .facet_on = all};
+    }
+    for (int i = 0; i < p->n_line; i++)
+        if (p->line[i].n_flux)
+            spec[n++] = (assembly_spec){.where = PF_FACET,
+                                        .use = p->line[i].flux,
+                                        .n_use = p->line[i].n_flux,
+                                        .facet_on = p->line[i].facet};
+    TRY(registry_solver(p->r, "solver_umfpack", &p->solver, err));
+    return system_create(&p->system, &p->space, spec, n, p->solver, p->n_thread, err);
+}
+
+int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *err)
+{
+    double start = solve_seconds();
+
+    memset(p, 0, sizeof *p);
+    p->c = c;
+    p->r = r;
+    p->n_thread = n_thread;
+    TRY(problem_read_mesh(p, err));
+    if (p->dim == 0)
+        p->dim = 2; /* the mesh block is wrong and said so; go on to find what else is */
+    TRY(problem_read_terms(p, err));
+    TRY(problem_read_boundaries(p, err));
+    TRY(problem_read_settings(p, err));
+    TRY(case_finish(c, err));
+    TRY(problem_make_mesh(p, err));
+    TRY(make_periodic(p, err));
+    TRY(space_number(&p->space, &p->mesh, err));
+    TRY(problem_make_boundaries(p, err));
+    TRY(problem_make_outputs(p, err));
+    TRY(space_constrain(&p->space, err));
+    TRY(make_system(p, err));
+    ARENA_NEW(&p->memory, p->x, p->space.n_dof, err);
+    p->setup_seconds = solve_seconds() - start;
+    return 0;
+}
+
+int problem_initial(problem *p, error *err)
+{
+    const space *s = &p->space;
+
+    for (int f = 0; f < s->n_field; f++)
+        for (int64_t c = 0; p->has_initial[f] && c < s->n_carrier; c++) {
+            double x[3] = {0}, v[VALUE_MAX] = {0};
+
+            if (s->first[f][c] < 0)
+                continue;
+            if (c < p->mesh.n_node)
+                memcpy(x, p->mesh.x + c * p->dim, (size_t)p->dim * sizeof *x);
+            TRY(value_at(&p->initial[f], x, p->time.start, v, err));
+            memcpy(p->x + s->first[f][c], v, (size_t)s->field[f].n_comp * sizeof *v);
+        }
+    return problem_dirichlet(p, p->time.start, p->x, err);
+}
+
+void problem_destroy(problem *p)
+{
+    system_destroy(&p->system);
+    space_destroy(&p->space);
+    mesh_destroy(&p->mesh);
+    arena_free(&p->memory);
+    memset(p, 0, sizeof *p);
+}

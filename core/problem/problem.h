@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * problem.h -- a case made concrete: mesh, fields, terms, conditions, and what to do with them. */
+#ifndef PROBLEM_PROBLEM_H
+#define PROBLEM_PROBLEM_H
+
+#include "case/case.h"
+#include "mesh/mesh.h"
+#include "solve/solve.h"
+#include "space/space.h"
+#include "term/term.h"
+
+enum { PROBLEM_MAX_LINES = 64, PROBLEM_MAX_PROBES = 64 };
+
+/* One boundary line of the case. */
+typedef struct boundary_line {
+    const case_block *block;
+    const char *name; /* "*": what no other line names */
+    int symmetry, natural;
+    const char *periodic[2];
+    int has_value[SPACE_MAX_FIELDS];
+    value value[SPACE_MAX_FIELDS]; /* Dirichlet                                          */
+    int n_flux;                    /* PF_BY_BOUNDARY terms that this line switches on     */
+    term_use *flux[ASSEMBLE_MAX_USES];
+    value flux_value[ASSEMBLE_MAX_USES];
+    uint8_t *facet; /* [n_facet] 1: belongs to this line                  */
+} boundary_line;
+
+/* A set of unknowns held at values of a case. */
+typedef struct dirichlet_set {
+    const value *value; /* NULL: zero */
+    int comp;           /* -1: all components that are not free; else this one */
+    int field;
+    int64_t n;
+    int32_t *node;
+} dirichlet_set;
+
+typedef struct probe {
+    const char *name;
+    double x[3];
+} probe;
+
+typedef struct line_probe {
+    const char *name;
+    double from[3], to[3];
+    int n;
+} line_probe;
+
+typedef struct force_output {
+    int boundary;
+    double about[3];
+} force_output;
+
+typedef struct problem_time {
+    int unsteady, order;
+    double step, stop, start;
+} problem_time;
+
+typedef struct problem_output {
+    double every;
+    int n_field, field[SPACE_MAX_FIELDS];
+    int n_probe, n_line, n_force;
+    probe probe[PROBLEM_MAX_PROBES];
+    line_probe line[PROBLEM_MAX_PROBES];
+    force_output force[MESH_MAX_NAMES];
+    const char *force_name[MESH_MAX_NAMES];
+    const case_block *block;
+} problem_output;
+
+typedef struct problem {
+    case_file *c;
+    registry *r;
+    int dim, n_thread;
+    mesh_box box;          /* if the mesh is a box */
+    const char *mesh_path; /* if it comes from a file */
+    value mesh_map;        /* moves its nodes, if the case says so */
+    int has_map;
+    mesh mesh;
+    space space;
+    newton_system system;
+    int n_use;
+    term_use use[ASSEMBLE_MAX_USES];
+    int n_line;
+    boundary_line *line; /* [PROBLEM_MAX_LINES] */
+    int n_dirichlet;
+    dirichlet_set *dirichlet;
+    value initial[SPACE_MAX_FIELDS], exact[SPACE_MAX_FIELDS];
+    int has_initial[SPACE_MAX_FIELDS], has_exact[SPACE_MAX_FIELDS];
+    problem_time time;
+    problem_output output;
+    newton_options newton;
+    continuation continuation;
+    const pf_solver *solver;
+    double *x; /* [n_dof] the solution */
+    double setup_seconds, mesh_seconds;
+    arena memory;
+} problem;
+
+/* Reads everything, reports all mistakes of the case at once, then makes the mesh, numbers the
+ * unknowns and plans the assembly. */
+int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *err);
+void problem_destroy(problem *p);
+
+/* Prescribed values at time t into x. */
+int problem_dirichlet(void *problem, double t, double *x, error *err);
+/* Initial values (zero where the case gives none), then the prescribed ones. */
+int problem_initial(problem *p, error *err);
+
+/* --- between the files of this folder --- */
+int problem_read_mesh(problem *p, error *err); /* reads mesh{} and finds the dimension; no mesh yet */
+int problem_make_mesh(problem *p, error *err);
+int problem_read_terms(problem *p, error *err);
+int problem_read_boundaries(problem *p, error *err);
+int problem_make_boundaries(problem *p, error *err);
+int problem_read_settings(problem *p, error *err);
+int problem_make_outputs(problem *p, error *err);
+
+#endif

@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * results(function(r) ... return { cd = ... } end) of a case: derived numbers for the summary.
+ *
+ *     r.t                    times of the rows of forces.csv and probes.csv
+ *     r.series["wall.fx"]    a column of those, as a list;  r.last["wall.fx"] its last value
+ *     r.errors.u             { l2, h1, l2_exact } of fields with an exact solution             */
+#include "run/run.h"
+
+#include <lauxlib.h>
+#include <lua.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+static void push_table(lua_State *l, const table *t, int series, int last)
+{
+    for (int c = 1; c < t->n_column; c++) {
+        lua_createtable(l, (int)t->n_row, 0);
+        for (long i = 0; i < t->n_row; i++) {
+            lua_pushnumber(l, t->row[i * t->n_column + c]);
+            lua_rawseti(l, -2, (int)i + 1);
+        }
+        lua_setfield(l, series, t->column[c]);
+        if (t->n_row) {
+            lua_pushnumber(l, t->row[(t->n_row - 1) * t->n_column + c]);
+            lua_setfield(l, last, t->column[c]);
+        }
+    }
+}
+
+static void push_errors(lua_State *l, const run_result *q)
+{
+    lua_newtable(l);
+    for (int i = 0; i < q->n_error; i++) {
+        lua_newtable(l);
+        lua_pushnumber(l, q->error_norm[i].l2);
+        lua_setfield(l, -2, "l2");
+        lua_pushnumber(l, q->error_norm[i].h1);
+        lua_setfield(l, -2, "h1");
+        lua_pushnumber(l, q->error_norm[i].l2_exact);
+        lua_setfield(l, -2, "l2_exact");
+        lua_setfield(l, -2, q->error_norm[i].name);
+    }
+}
+
+static void push_argument(lua_State *l, const run *r)
+{
+    const table *any = r->forces.n_column ? &r->forces : &r->probes;
+
+    lua_newtable(l);
+    lua_newtable(l);
+    for (long i = 0; i < any->n_row; i++) {
+        lua_pushnumber(l, any->row[i * any->n_column]);
+        lua_rawseti(l, -2, (int)i + 1);
+    }
+    lua_setfield(l, -2, "t");
+    lua_newtable(l);
+    lua_newtable(l);
+    push_table(l, &r->forces, lua_gettop(l) - 1, lua_gettop(l));
+    push_table(l, &r->probes, lua_gettop(l) - 1, lua_gettop(l));
+    lua_setfield(l, -3, "last");
+    lua_setfield(l, -2, "series");
+    push_errors(l, r->result);
+    lua_setfield(l, -2, "errors");
+    lua_pushnumber(l, r->p->time.step);
+    lua_setfield(l, -2, "dt");
+}
+
+static int by_key(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+int results_evaluate(run *r, error *err)
+{
+    const case_block *b = case_find(r->p->c, "results", 0);
+    lua_State *l = r->p->c->lua;
+    const char *key[256];
+    int n = 0;
+
+    if (!b)
+        return 0;
+    lua_settop(l, 0);
+    lua_rawgeti(l, LUA_REGISTRYINDEX, b->ref);
+    push_argument(l, r);
+    if (lua_pcall(l, 1, 1, 0) != LUA_OK)
+        return error_set(err, ERR_CASE, "%s", lua_tostring(l, -1) ? lua_tostring(l, -1) : "results: error");
+    if (!lua_istable(l, -1))
+        return error_set(err, ERR_CASE, "%s:%d: results: the function must return a table of numbers, got %s",
+                         b->file, b->line, luaL_typename(l, -1));
+    lua_pushnil(l);
+    while (lua_next(l, 1) && n < 256) {
+        if (lua_type(l, -2) == LUA_TSTRING && lua_type(l, -1) == LUA_TNUMBER)
+            key[n++] = lua_tostring(l, -2);
+        lua_pop(l, 1);
+    }
+    qsort(key, (size_t)n, sizeof *key, by_key);
+    for (int i = 0; i < n; i++) {
+        lua_getfield(l, 1, key[i]);
+        text_add(&r->results, "%s", i ? ", " : "");
+        text_json(&r->results, key[i]);
+        text_add(&r->results, ": ");
+        text_number(&r->results, lua_tonumber(l, -1));
+        lua_pop(l, 1);
+    }
+    lua_settop(l, 0);
+    return 0;
+}

@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Newton's method with backtracking.
+ *
+ * A field has converged when |r_f| <= tolerance * scale_f.  The scale is what the rows of the
+ * field add up before they cancel, | |J| x~ |, where x~_j = |x_j| + (|J| |x|)_j / |J_jj| also
+ * counts the size that an unknown would have if nothing balanced its row: so a velocity that
+ * is zero in the end is measured by the forces that might have moved it. */
+#include "solve/solve.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_spec, const pf_solver *solver,
+                  int n_thread, error *err)
+{
+    memset(s, 0, sizeof *s);
+    s->space = sp;
+    TRY(assembly_create(&s->assembly, sp, spec, n_spec, n_thread, err));
+    TRY(linear_create(&s->linear, solver, sp, n_thread, err));
+    ARENA_NEW(&s->memory, s->residual, sp->n_dof, err);
+    ARENA_NEW(&s->memory, s->trial, sp->n_dof, err);
+    ARENA_NEW(&s->memory, s->step, sp->n_dof, err);
+    ARENA_NEW(&s->memory, s->rhs, sp->n_dof, err);
+    ARENA_NEW(&s->memory, s->scale, sp->n_dof, err);
+    ARENA_NEW(&s->memory, s->work, sp->n_dof, err);
+    return 0;
+}
+
+void system_destroy(newton_system *s)
+{
+    assembly_destroy(&s->assembly);
+    linear_destroy(&s->linear);
+    arena_free(&s->memory);
+    memset(s, 0, sizeof *s);
+}
+
+static int evaluate(newton_system *s, const newton_time *time, const double *x, int with_matrix, int diagnose,
+                    error *err)
+{
+    const space *sp = s->space;
+    assembly_state st = {
+        .t = time->t, .dt = time->dt, .shift = time->shift, .x = x, .dot = s->work, .old = time->old};
+    double start = solve_seconds();
+    int status;
+
+    for (int64_t d = 0; d < sp->n_dof; d++)
+        s->work[d] = time->history ? time->shift * x[d] + time->history[d] : 0;
+    if (!st.old)
+        st.old = x;
+    status = assembly_run(&s->assembly, &st, s->residual, with_matrix ? s->linear.value : NULL, diagnose, err);
+    s->assemble_seconds += solve_seconds() - start;
+    return status;
+}
+
+/* scale[f] as above, from the matrix at x. */
+static void field_scales(newton_system *s, const double *x, double *scale)
+{
+    const space *sp = s->space;
+    const double *a = s->linear.value;
+    double *size = s->scale;
+
+    for (int64_t i = 0; i < sp->n_free; i++) {
+        double sum = fabs(s->residual[sp->dof_of[i]]), diagonal = 0, largest = 0;
+
+        for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++) {
+            sum += fabs(a[k] * x[sp->dof_of[sp->col[k]]]);
+            largest = fmax(largest, fabs(a[k]));
+            if (sp->col[k] == i)
+                diagonal = fabs(a[k]);
+        }
+        size[i] = fabs(x[sp->dof_of[i]]) + (diagonal > 1e-8 * largest ? sum / diagonal : 0);
+    }
+    for (int f = 0; f < sp->n_field; f++)
+        scale[f] = 0;
+    for (int64_t i = 0; i < sp->n_free; i++) {
+        double sum = 0;
+
+        for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++)
+            sum += fabs(a[k]) * size[sp->col[k]];
+        scale[sp->dof_field[sp->dof_of[i]]] += sum * sum;
+    }
+    for (int f = 0; f < sp->n_field; f++)
+        scale[f] = sqrt(scale[f]);
+}
+
+/* Scaled residual of each field; returns the largest. */
+static double field_norms(const newton_system *s, const double *scale, double *norm)
+{
+    const space *sp = s->space;
+    double largest = 0;
+
+    for (int f = 0; f < sp->n_field; f++)
+        norm[f] = 0;
+    for (int64_t i = 0; i < sp->n_free; i++) {
+        double r = s->residual[sp->dof_of[i]];
+
+        norm[sp->dof_field[sp->dof_of[i]]] += r * r;
+    }
+    for (int f = 0; f < sp->n_field; f++) {
+        norm[f] = norm[f] > 0 ? sqrt(norm[f]) / (scale[f] > 0 ? scale[f] : 1) : norm[f];
+        if (!(norm[f] <= largest))
+            largest = norm[f]; /* NaN counts as largest */
+    }
+    return largest;
+}
+
+static double merit(const newton_system *s, const double *norm)
+{
+    double sum = 0;
+
+    for (int f = 0; f < s->space->n_field; f++)
+        sum += norm[f] * norm[f];
+    return sqrt(sum);
+}
+
+/* Moves x along the step: whole, or halved until the scaled residual falls.  Returns the length, 0 = failed. */
+static int line_search(newton_system *s, const newton_time *time, const double *scale, double before, double *x,
+                       double *length, double *norm, error *err)
+{
+    const space *sp = s->space;
+
+    for (*length = 1; *length > 1e-3; *length *= 0.5) {
+        int status;
+        double after;
+
+        memcpy(s->trial, x, (size_t)sp->n_dof * sizeof *x);
+        for (int64_t i = 0; i < sp->n_free; i++)
+            s->trial[sp->dof_of[i]] += *length * s->step[i];
+        status = evaluate(s, time, s->trial, 0, 0, err);
+        if (status && !err->retry)
+            return status;
+        gauge_project(s, s->residual);
+        field_norms(s, scale, norm);
+        after = merit(s, norm);
+        if (!status && isfinite(after) && (after <= (1 - 1e-4 * *length) * before || after < 1e-12)) {
+            memcpy(x, s->trial, (size_t)sp->n_dof * sizeof *x);
+            return 0;
+        }
+    }
+    *length = 0;
+    return 0;
+}
+
+/* Names who put the NaN there. */
+static int explain_nan(newton_system *s, const newton_time *time, const double *x, error *err)
+{
+    TRY(evaluate(s, time, x, 0, 1, err));
+    return error_set(err, ERR_CONVERGE, "the residual is not a finite number");
+}
+
+static void observe_order(newton_report *r)
+{
+    int k = r->iterations;
+
+    r->ratio = k >= 1 && r->history[k - 1] > 0 ? r->history[k] / (r->history[k - 1] * r->history[k - 1]) : 0;
+    for (int i = 2; i <= k; i++) { /* the best of the iterations above round-off */
+        double a = r->history[i - 2], b = r->history[i - 1], c = r->history[i];
+
+        if (b < a && b < 1e-2 && c > 1e-15 && log(c / b) / log(b / a) > r->order)
+            r->order = log(c / b) / log(b / a);
+    }
+}
+
+int newton_solve(newton_system *s, const newton_time *time, const newton_options *o, double *x,
+                 newton_report *report, error *err)
+{
+    const space *sp = s->space;
+    double scale[SPACE_MAX_FIELDS], length = 0;
+    int stalled = 0;
+
+    memset(report, 0, sizeof *report);
+    for (int k = 0;; k++) {
+        int status = evaluate(s, time, x, 1, 0, err);
+
+        if (status && err->retry) {
+            snprintf(report->why, sizeof report->why, "%.280s", err->text);
+            return 0;
+        }
+        TRY(status);
+        TRY(gauge_detect(s, err));
+        gauge_project(s, s->residual);
+        field_scales(s, x, scale);
+        report->iterations = k;
+        report->history[k] = field_norms(s, scale, report->norm);
+        if (!isfinite(report->history[k]))
+            return explain_nan(s, time, x, err);
+        if (s->talk)
+            s->talk(s->talk_ctx, k, report->history[k], report->norm, length);
+        if (report->history[k] <= o->tolerance) {
+            report->converged = 1;
+            break;
+        }
+        if (k >= o->max_iterations || k >= NEWTON_MAX_ITERATIONS || stalled) {
+            snprintf(report->why, sizeof report->why, "residual %.2g after %d iterations", report->history[k], k);
+            break;
+        }
+        for (int64_t i = 0; i < sp->n_free; i++)
+            s->rhs[i] = -s->residual[sp->dof_of[i]];
+        gauge_pin(s);
+        status = linear_solve(&s->linear, s->rhs, s->step, o->linear_tolerance, err);
+        if (status && err->retry) {
+            snprintf(report->why, sizeof report->why, "%.280s", err->text);
+            return 0;
+        }
+        TRY(status);
+        TRY(line_search(s, time, scale, merit(s, report->norm), x, &length, report->norm, err));
+        if (length == 0) {
+            /* round-off: nothing smaller is to be had */
+            if (report->history[k] <= 100 * o->tolerance && k > 0) {
+                report->converged = 1;
+                break;
+            }
+            snprintf(report->why, sizeof report->why, "no step along Newton's direction lowers the residual (%.2g)",
+                     report->history[k]);
+            break;
+        }
+        stalled = length < 0.01;
+    }
+    observe_order(report);
+    return 0;
+}

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * solve.h -- linear solution with reused factors, Newton's method, continuation, time steps. */
+#ifndef SOLVE_SOLVE_H
+#define SOLVE_SOLVE_H
+
+#include "assemble/assemble.h"
+
+#include <plugflow/solver.h>
+
+/* --- linear (linear.c) --- */
+
+typedef struct linear_stats {
+    int factorisations, gmres_iterations, solves;
+    double worst_residual; /* largest |b - A x| / |b| right after a fresh factorisation */
+    double factor_seconds, solve_seconds, analyze_seconds;
+    pf_solver_cost cost;
+} linear_stats;
+
+typedef struct linear {
+    const pf_solver *solver;
+    void *self;
+    pf_csr a;
+    double *value;
+    int analyzed, factored; /* factored: there are factors, perhaps of an older matrix */
+    int max_iterations;     /* of GMRES with old factors; 0: factor every matrix        */
+    int spent;              /* GMRES iterations since the last factorisation            */
+    double memory_limit;    /* bytes                                                    */
+    double *v, *z, *r;      /* Krylov vectors                                           */
+    linear_stats stats;
+    arena memory;
+} linear;
+
+int linear_create(linear *l, const pf_solver *solver, const space *s, int n_thread, error *err);
+/* Solves A x = b to |b - A x| <= tol |b|: with the factors there are, as preconditioner of GMRES,
+ * if that pays, else with fresh ones.  A fresh solve below LINEAR_ACCEPT passes whatever tol is. */
+int linear_solve(linear *l, const double *b, double *x, double tol, error *err);
+/* Analyses the pattern: fills stats.cost; ERR_MEMORY if the factors will not fit. */
+int linear_predict(linear *l, error *err);
+void linear_forget(linear *l); /* the next solve factors afresh */
+void linear_destroy(linear *l);
+#define LINEAR_ACCEPT 1e-10
+
+/* --- fields that are fixed up to a constant (gauge.c) --- */
+
+typedef struct gauge {
+    int known;
+    int free[SPACE_MAX_FIELDS];       /* the field has a free constant                    */
+    double *weight[SPACE_MAX_FIELDS]; /* [n_dof] integral of each basis function         */
+    double volume;
+    double defect[SPACE_MAX_FIELDS]; /* what was taken out of the residual, relative     */
+} gauge;
+
+/* --- Newton (newton.c) --- */
+
+enum { NEWTON_MAX_ITERATIONS = 50 };
+
+typedef struct newton_options {
+    double tolerance; /* per field, relative to |J| |x|          */
+    int max_iterations;
+    double linear_tolerance; /* of GMRES; 0: factor every matrix  */
+} newton_options;
+
+typedef struct newton_report {
+    int iterations, converged;
+    double norm[SPACE_MAX_FIELDS];             /* scaled residual of each field, last  */
+    double history[NEWTON_MAX_ITERATIONS + 1]; /* largest of them, per iteration        */
+    double ratio;                              /* r_{k+1} / r_k^2 of the last iterations */
+    double order;                              /* observed order of convergence         */
+    char why[300];                             /* if it did not converge                */
+} newton_report;
+
+typedef struct solution {
+    double t, dt;
+    double *x, *dot, *old; /* [n_dof] */
+} solution;
+
+typedef void newton_talk(void *ctx, int iteration, double norm, const double *field_norm, double step);
+
+/* Everything that a nonlinear solve needs. */
+typedef struct newton_system {
+    space *space;
+    assembly assembly;
+    linear linear;
+    gauge gauge;
+    double *residual, *trial, *step, *rhs, *scale, *work; /* [n_dof] */
+    double assemble_seconds;
+    newton_talk *talk;
+    void *talk_ctx;
+    arena memory;
+} newton_system;
+
+int gauge_detect(newton_system *s, error *err);
+void gauge_project(newton_system *s, double *residual); /* takes the inconsistent part out */
+void gauge_pin(newton_system *s);                       /* changes the matrix              */
+void gauge_zero_mean(const newton_system *s, double *x);
+/* Integral of each basis function of a field; returns the volume. */
+double gauge_weights(const space *s, int field, double *weight);
+
+int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_spec, const pf_solver *solver,
+                  int n_thread, error *err);
+void system_destroy(newton_system *s);
+
+/* dot = shift x + history.  x must satisfy the Dirichlet conditions at t. */
+typedef struct newton_time {
+    double t, dt, shift;
+    const double *history, *old; /* NULL: steady */
+} newton_time;
+
+/* 0 also when it does not converge (see report); an error only if going on makes no sense. */
+int newton_solve(newton_system *s, const newton_time *time, const newton_options *o, double *x,
+                 newton_report *report, error *err);
+
+/* --- steady states (continuation.c) --- */
+
+typedef struct continuation {
+    term_use **use; /* faded in; factor 0..1 */
+    int n_use;
+    double *parameter[16]; /* or: parameters moved from `from` to their value, geometrically */
+    double from[16], to[16];
+    int n_parameter;
+} continuation;
+
+typedef void continuation_talk(void *ctx, double s, int iterations, int converged);
+
+int continuation_solve(newton_system *s, continuation *c, const newton_options *o, double *x, newton_report *report,
+                       int *n_steps, continuation_talk *talk, void *ctx, error *err);
+
+/* --- time (time.c) --- */
+
+typedef int dirichlet_fn(void *ctx, double t, double *x, error *err);
+
+typedef struct stepper {
+    newton_system *system;
+    int order; /* 1: BDF1, 2: BDF2 */
+    double t, dt_previous;
+    int n_history;
+    double *x, *before, *history, *save[3]; /* [n_dof] */
+    newton_options options;
+    dirichlet_fn *dirichlet;
+    void *dirichlet_ctx;
+    newton_report report;
+    int newton_iterations, n_steps, n_halved;
+    arena memory;
+} stepper;
+
+int stepper_create(stepper *p, newton_system *s, int order, dirichlet_fn *f, void *ctx, error *err);
+/* From t to t + dt; a step that fails is halved, at most 6 times. */
+int stepper_advance(stepper *p, double dt, error *err);
+void stepper_destroy(stepper *p);
+
+double solve_seconds(void);
+
+#endif

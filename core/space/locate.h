@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * locate.h -- the cell that a point lies in, and fields at that point. */
+#ifndef SPACE_LOCATE_H
+#define SPACE_LOCATE_H
+
+#include "space/space.h"
+
+typedef struct located {
+    int32_t cell; /* -1: outside the mesh */
+    double xi[3]; /* reference coordinates */
+} located;
+
+located locate_point(const mesh *m, const double *x);
+/* Value[n_comp] and, unless NULL, gradient[n_comp][dim] of a field there. */
+void locate_value(const space *s, const located *at, int field, const double *x, double *value, double *gradient);
+
+#endif

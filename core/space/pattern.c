@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The sparsity pattern, built on carriers: all rows of a carrier have the same columns, so one
+ * offset per pair of carriers of a cell locates a whole block of entries in the matrix. */
+#include "space/space.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int by_int32(const void *a, const void *b)
+{
+    int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
+
+    return (x > y) - (x < y);
+}
+
+static int number_free(space *s, error *err)
+{
+    int64_t n = 0, groups = 0;
+
+    ARENA_NEW(&s->memory, s->free_of, s->n_dof, err);
+    ARENA_NEW(&s->memory, s->node_free, s->n_carrier + 1, err);
+    for (int64_t d = 0; d < s->n_dof; d++)
+        s->free_of[d] = s->fixed[d] ? -1 : (int32_t)n++;
+    s->n_free = n;
+    if (n == 0)
+        return error_set(err, ERR_CASE, "no unknown is left: boundary conditions fix all of them; refine the mesh");
+    ARENA_NEW(&s->memory, s->dof_of, n, err);
+    for (int64_t d = 0; d < s->n_dof; d++)
+        if (s->free_of[d] >= 0) {
+            s->dof_of[s->free_of[d]] = (int32_t)d;
+            s->node_free[s->dof_node[d] + 1]++;
+        }
+    for (int64_t c = 0; c < s->n_carrier; c++) {
+        groups += s->node_free[c + 1] > 0;
+        s->node_free[c + 1] += s->node_free[c];
+    }
+    ARENA_NEW(&s->memory, s->row_node, groups + 1, err);
+    s->n_row_node = 0;
+    for (int64_t c = 0; c < s->n_carrier; c++)
+        if (s->node_free[c + 1] > s->node_free[c])
+            s->row_node[s->n_row_node++] = s->node_free[c];
+    s->row_node[s->n_row_node] = n;
+    return 0;
+}
+
+/* Cells of each carrier, in compressed lists. */
+static int cells_of_carriers(space *s, int64_t **start, int32_t **cell, error *err)
+{
+    const mesh *m = s->mesh;
+
+    ARENA_NEW(&s->memory, *start, s->n_carrier + 2, err);
+    ARENA_NEW(&s->memory, *cell, m->n_cell * s->cell_carriers, err);
+    for (int64_t e = 0; e < m->n_cell; e++)
+        for (int i = 0; i < s->cell_carriers; i++)
+            (*start)[space_carrier(s, e, i) + 2]++;
+    for (int64_t c = 0; c <= s->n_carrier; c++)
+        (*start)[c + 1] += (*start)[c];
+    for (int64_t e = 0; e < m->n_cell; e++)
+        for (int i = 0; i < s->cell_carriers; i++)
+            (*cell)[(*start)[space_carrier(s, e, i) + 1]++] = (int32_t)e;
+    return 0;
+}
+
+/* Carriers with free unknowns that share a cell with c, ascending, each once. */
+static int64_t neighbours(const space *s, const int64_t *start, const int32_t *cell, int64_t c, int32_t *list,
+                          uint8_t *seen)
+{
+    int64_t n = 0;
+
+    for (int64_t k = start[c]; k < start[c + 1]; k++)
+        for (int i = 0; i < s->cell_carriers; i++) {
+            int32_t j = space_carrier(s, cell[k], i);
+
+            if (seen[j] || s->node_free[j + 1] == s->node_free[j])
+                continue;
+            seen[j] = 1;
+            list[n++] = j;
+        }
+    for (int64_t k = 0; k < n; k++)
+        seen[list[k]] = 0;
+    qsort(list, (size_t)n, sizeof *list, by_int32);
+    return n;
+}
+
+/* For the cells of carrier c: where the columns of each of their carriers start in c's rows. */
+static void locate_pairs(space *s, const int64_t *start, const int32_t *cell, int64_t c, int32_t *offset)
+{
+    int nc = s->cell_carriers;
+
+    for (int64_t k = start[c]; k < start[c + 1]; k++)
+        for (int i = 0; i < nc; i++)
+            if (space_carrier(s, cell[k], i) == c)
+                for (int j = 0; j < nc; j++)
+                    s->pair[((int64_t)cell[k] * nc + i) * nc + j] = offset[space_carrier(s, cell[k], j)];
+}
+
+int space_constrain(space *s, error *err)
+{
+    const mesh *m = s->mesh;
+    arena scratch = {0};
+    arena keep;
+    int64_t *start = NULL, entries = 0;
+    int32_t *cell = NULL, *list, *offset;
+    uint8_t *seen;
+    int status = 0;
+
+    TRY(number_free(s, err));
+    ARENA_NEW(&s->memory, s->row, s->n_free + 1, err);
+    ARENA_NEW(&s->memory, s->pair, m->n_cell * s->cell_carriers * s->cell_carriers, err);
+    keep = s->memory; /* what follows is needed only here */
+    s->memory = scratch;
+    status = cells_of_carriers(s, &start, &cell, err);
+    list = arena_alloc(&s->memory, (size_t)s->n_carrier, sizeof *list);
+    offset = arena_alloc(&s->memory, (size_t)s->n_carrier, sizeof *offset);
+    seen = arena_alloc(&s->memory, (size_t)s->n_carrier, 1);
+    scratch = s->memory;
+    s->memory = keep;
+    if (status || !list || !offset || !seen) {
+        arena_free(&scratch);
+        return status ? status : error_memory(err, "matrix pattern", (double)s->n_carrier * 9);
+    }
+    for (int pass = 0; pass < 2 && !status; pass++) {
+        int64_t at = 0;
+
+        memset(offset, 0xff, (size_t)s->n_carrier * sizeof *offset);
+        for (int64_t c = 0; c < s->n_carrier; c++) {
+            int64_t n = neighbours(s, start, cell, c, list, seen), width = 0;
+
+            for (int64_t k = 0; k < n; k++) {
+                offset[list[k]] = (int32_t)width;
+                width += s->node_free[list[k] + 1] - s->node_free[list[k]];
+            }
+            if (pass)
+                locate_pairs(s, start, cell, c, offset);
+            for (int64_t r = s->node_free[c]; r < s->node_free[c + 1]; r++) {
+                s->row[r] = at;
+                for (int64_t k = 0; pass && k < n; k++)
+                    for (int64_t f = s->node_free[list[k]]; f < s->node_free[list[k] + 1]; f++)
+                        s->col[at + offset[list[k]] + f - s->node_free[list[k]]] = f;
+                at += width;
+            }
+            for (int64_t k = 0; k < n; k++)
+                offset[list[k]] = -1;
+        }
+        s->row[s->n_free] = entries = at;
+        if (!pass && !(s->col = arena_alloc(&s->memory, (size_t)entries, sizeof *s->col)))
+            status = error_memory(err, "matrix pattern", 8.0 * (double)entries);
+    }
+    arena_free(&scratch);
+    return status;
+}

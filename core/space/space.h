@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * space.h -- fields, the map from nodes to unknowns, and constraints.
+ *
+ * A carrier is what unknowns hang on: a mesh node or, after those, the problem as a whole.
+ * A carrier's unknowns are numbered consecutively, field by field, component by component
+ * ("interleaved by node").  Unknowns are numbered twice: all of them ("dof", 0..n_dof-1) and
+ * those that no Dirichlet condition fixes ("free", 0..n_free-1), which make up the matrix.
+ * Today all unknowns are owned by this process. */
+#ifndef SPACE_SPACE_H
+#define SPACE_SPACE_H
+
+#include "base/arena.h"
+#include "base/error.h"
+#include "mesh/mesh.h"
+
+#include <plugflow/plugin.h>
+
+#include <stdint.h>
+
+enum { SPACE_MAX_FIELDS = 16 };
+
+typedef struct space_field {
+    const char *name, *unit, *doc, *reaction, *reaction_unit;
+    const char *declared_by; /* plugin that declared it first */
+    int shape;               /* PF_SCALAR or PF_VECTOR        */
+    int n_comp;
+    int order;   /* 0 (off the mesh), 1 or 2      */
+    int support; /* enum pf_support               */
+} space_field;
+
+typedef struct space {
+    mesh *mesh;
+    int n_field;
+    space_field field[SPACE_MAX_FIELDS];
+
+    int64_t n_carrier; /* mesh nodes + 1                                             */
+    int cell_carriers; /* carriers of a cell: its nodes, then the problem if needed  */
+    int64_t n_dof, n_free;
+    int32_t *first[SPACE_MAX_FIELDS]; /* [n_carrier] first dof of the field there, or -1           */
+    uint8_t *dof_field, *dof_comp;    /* [n_dof]                                                    */
+    int32_t *dof_node;                /* [n_dof] carrier                                            */
+    uint8_t *fixed;                   /* [n_dof] 1: prescribed by a Dirichlet condition             */
+    int32_t *free_of;                 /* [n_dof] or -1                                              */
+    int32_t *dof_of;                  /* [n_free]                                                   */
+    int64_t *node_free;               /* [n_carrier + 1] first free unknown of each carrier         */
+    int64_t *row_node;                /* free unknowns grouped by carrier, [n_row_node + 1]         */
+    int64_t n_row_node;
+
+    /* Matrix pattern over free unknowns; all unknowns of two carriers of one cell couple. */
+    int64_t *row, *col; /* [n_free + 1], [row[n_free]]                                */
+    int32_t *pair;      /* [n_cell][cell_carriers^2]: offset of carrier j's columns in
+                           the rows of carrier i, or -1                               */
+    arena memory;
+} space;
+
+/* Adds a field, or checks that it agrees with the one of this name. */
+int space_add_field(space *s, int dim, const pf_field *f, const char *plugin, error *err);
+int space_find_field(const space *s, const char *name); /* index or -1 */
+
+/* Numbers all unknowns (after all fields are known). */
+int space_number(space *s, mesh *m, error *err);
+
+/* Numbers free unknowns and builds the pattern (after `fixed` is set). */
+int space_constrain(space *s, error *err);
+
+/* Carrier i of a cell: master node, or the problem. */
+int32_t space_carrier(const space *s, int64_t cell, int i);
+
+void space_destroy(space *s);
+
+#endif

@@ -1,0 +1,492 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Tests that follow from a term's own description: worked examples; every output assigned, and
+ * finite; the same answer twice and in any batch; the Jacobian block by block against complex
+ * step (or differences), with a guess at what is wrong; declared dependencies; linearity. */
+#include "term/selftest.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LD = 24 };
+
+typedef struct bench {
+    selftest *s;
+    const term_plugin *p;
+    const pf_term *t;
+    int dim;
+    void *params;
+    double *in[TERM_MAX_SLOTS], *out[TERM_MAX_SLOTS], *again[TERM_MAX_SLOTS];
+    double *jac[TERM_MAX_SLOTS * TERM_MAX_SLOTS], *truth[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
+    double *x, *normal, *h;
+    void *room;
+    term_report report;
+    pf_batch b;
+    unsigned long long seed;
+    arena memory;
+} bench;
+
+static void line(bench *k, int ok, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+static void line(bench *k, int ok, const char *fmt, ...)
+{
+    char text[900];
+    va_list ap;
+
+    va_start(ap, fmt);
+    vsnprintf(text, sizeof text, fmt, ap);
+    va_end(ap);
+    *(ok ? &k->s->passed : &k->s->failed) += 1;
+    k->s->line(k->s->ctx, ok, text);
+}
+
+static double random_number(bench *k)
+{
+    k->seed ^= k->seed >> 12;
+    k->seed ^= k->seed << 25;
+    k->seed ^= k->seed >> 27;
+    return (double)((k->seed * 2685821657736338717ULL) >> 11) * 0x1p-52 - 1;
+}
+
+static int comps(const bench *k, const pf_slot *s)
+{
+    return term_components(s->shape, k->dim);
+}
+
+static void random_inputs(bench *k)
+{
+    for (uint32_t i = 0; i < k->t->n_in; i++)
+        for (int c = 0; c < comps(k, &k->t->in[i]) * LD; c++)
+            k->in[i][c] = random_number(k) + (k->t->in[i].shape == PF_SCALAR ? 1.5 : 0);
+}
+
+/* Parameters: defaults; required ones get a number inside their range, all different. */
+static void place_params(bench *k)
+{
+    term_defaults(k->t, k->params);
+    for (uint32_t i = 0; i < k->t->n_param; i++) {
+        const pf_param *p = &k->t->param[i];
+        double v = 1.25 + 0.5 * i, vec[3] = {0.3, -0.7, 0.9};
+
+        if (p->min < p->max)
+            v = v < p->min ? p->min : v > p->max ? 0.5 * (fmax(p->min, -1e6) + p->max) : v;
+        if (p->type == PF_T_REAL && ((p->flags & PF_REQUIRED) || p->dflt == 0))
+            memcpy((char *)k->params + p->offset, &v, sizeof v);
+        else if (p->type == PF_T_VECTOR)
+            memcpy((char *)k->params + p->offset, vec, sizeof vec);
+    }
+}
+
+static int bench_create(bench *k, selftest *s, const term_plugin *p, const pf_term *t, int dim, error *err)
+{
+    memset(k, 0, sizeof *k);
+    k->s = s;
+    k->p = p;
+    k->t = t;
+    k->dim = dim;
+    k->seed = 88172645463325252ULL;
+    ARENA_NEW(&k->memory, k->x, 3 * LD, err);
+    ARENA_NEW(&k->memory, k->normal, 3 * LD, err);
+    ARENA_NEW(&k->memory, k->h, LD, err);
+    k->params = arena_alloc(&k->memory, t->params_bytes + 1, 1);
+    k->room = arena_alloc(&k->memory, term_jacobian_room(t, dim, LD) + 64, 1);
+    k->b.scratch = arena_alloc(&k->memory, t->scratch_bytes + 1, 1);
+    if (!k->params || !k->room || !k->b.scratch)
+        return error_memory(err, "test of a term", 0);
+    for (uint32_t i = 0; i < t->n_in; i++)
+        ARENA_NEW(&k->memory, k->in[i], comps(k, &t->in[i]) * LD, err);
+    for (uint32_t o = 0; o < t->n_out; o++) {
+        ARENA_NEW(&k->memory, k->out[o], comps(k, &t->out[o]) * LD, err);
+        ARENA_NEW(&k->memory, k->again[o], comps(k, &t->out[o]) * LD, err);
+        for (uint32_t i = 0; i < t->n_in; i++) {
+            size_t n = (size_t)(comps(k, &t->out[o]) * comps(k, &t->in[i]) * LD);
+
+            ARENA_NEW(&k->memory, k->jac[o * t->n_in + i], n, err);
+            ARENA_NEW(&k->memory, k->truth[o * t->n_in + i], n, err);
+        }
+    }
+    for (int i = 0; i < 3 * LD; i++) {
+        k->x[i] = random_number(k);
+        k->normal[i] = i / LD == 0 ? 0.6 : i / LD == 1 ? (dim == 2 ? -0.8 : 0.48) : 0.64;
+    }
+    for (int i = 0; i < LD; i++)
+        k->h[i] = 0.1 + 0.01 * i;
+    place_params(k);
+    random_inputs(k);
+    k->report = (term_report){.plugin = p->d.name, .term = t->name};
+    k->b = (pf_batch){.size = sizeof k->b,
+                      .dim = (uint32_t)dim,
+                      .n = LD,
+                      .ld = LD,
+                      .t = 0.7,
+                      .dt = 0.1,
+                      .shift = 15,
+                      .x = k->x,
+                      .normal = t->where == PF_FACET ? k->normal : NULL,
+                      .h = k->h,
+                      .params = k->params,
+                      .scratch = k->b.scratch,
+                      .kernel = &k->report};
+    return 0;
+}
+
+/* Calls the residual; 1 if it went well, else the line is out. */
+static int call(bench *k, double *const *out, const char *what)
+{
+    int status;
+
+    k->report.status = 0;
+    term_now = (term_breadcrumb){k->p->d.name, k->t->name, what, 0};
+    status = k->t->residual(&k->b, (const double *const *)k->in, out);
+    term_now = (term_breadcrumb){0};
+    if (status)
+        line(k, 0, "%s  returned %d on random values: %s", k->t->name, status,
+             k->report.status ? k->report.text : "without saying why (host->fail gives the reason)");
+    return status == 0;
+}
+
+static void test_example(bench *k, const pf_example *e)
+{
+    const double *in = e->in, *out = e->out, *params = e->params;
+    double worst = 0, size = 0, got = 0, expected = 0;
+    char where[100] = "";
+
+    for (uint32_t i = 0; params && i < k->t->n_param; i++) {
+        const pf_param *p = &k->t->param[i];
+        char *at = (char *)k->params + p->offset;
+
+        if (p->type == PF_T_VECTOR) {
+            memcpy(at, params, (size_t)k->dim * sizeof *params);
+            params += k->dim;
+        } else if (p->type == PF_T_REAL) {
+            memcpy(at, params++, sizeof *params);
+        } else {
+            int v = (int)*params++;
+
+            memcpy(at, &v, sizeof v);
+        }
+    }
+    for (uint32_t i = 0; i < k->t->n_in; i++)
+        for (int c = 0; c < comps(k, &k->t->in[i]); c++, in++)
+            for (int l = 0; l < LD; l++)
+                k->in[i][c * LD + l] = *in;
+    if (!call(k, k->out, "worked example"))
+        return;
+    for (uint32_t o = 0; o < k->t->n_out; o++)
+        for (int c = 0; c < comps(k, &k->t->out[o]); c++, out++) {
+            size = fmax(size, fabs(*out));
+            if (!(fabs(k->out[o][c * LD] - *out) <= worst)) {
+                worst = fabs(k->out[o][c * LD] - *out);
+                got = k->out[o][c * LD];
+                expected = *out;
+                snprintf(where, sizeof where, "%s[%d]", k->t->out[o].name, c);
+            }
+        }
+    if (worst <= e->tol * size)
+        line(k, 1, "%s  example \"%s\"", k->t->name, e->name);
+    else
+        line(k, 0, "%s  example \"%s\": %s is %.15g, expected %.15g", k->t->name, e->name, where, got, expected);
+}
+
+static void test_outputs(bench *k)
+{
+    for (int pass = 0; pass < 2; pass++) {
+        double **to = pass ? k->again : k->out;
+
+        for (uint32_t o = 0; o < k->t->n_out; o++)
+            for (int i = 0; i < comps(k, &k->t->out[o]) * LD; i++)
+                to[o][i] = pass ? -7.7e77 : 7.7e77;
+        if (!call(k, to, "residual"))
+            return;
+    }
+    for (uint32_t o = 0; o < k->t->n_out; o++)
+        for (int i = 0; i < comps(k, &k->t->out[o]) * LD; i++) {
+            double a = k->out[o][i], b = k->again[o][i];
+            const char *why = a == 7.7e77 && b == -7.7e77 ? "is not written; the residual must assign every output"
+                              : !isfinite(a)              ? "is not a finite number on random values"
+                              : a != b && fabs(a - b) > 1e70  ? "is added to; the residual must assign, not add"
+                              : memcmp(&a, &b, sizeof a) != 0 ? "differs between two calls with the same values"
+                                                              : NULL;
+
+            if (why) {
+                line(k, 0, "%s  output \"%s\"[%d] in %dD %s", k->t->name, k->t->out[o].name, i / LD, k->dim, why);
+                return;
+            }
+        }
+    line(k, 1, "%s  outputs in %dD assigned, finite, repeatable", k->t->name, k->dim);
+}
+
+/* The same points in another order must give the same values in that order. */
+static void test_batches(bench *k)
+{
+    for (uint32_t i = 0; i < k->t->n_in; i++)
+        for (int c = 0; c < comps(k, &k->t->in[i]); c++)
+            for (int l = 0; l < LD / 2; l++) {
+                double *a = &k->in[i][c * LD + l], *b = &k->in[i][c * LD + LD - 1 - l], swap = *a;
+
+                *a = *b, *b = swap;
+            }
+    for (int c = 0; c < 4; c++)
+        for (int l = 0; l < LD / 2; l++) {
+            double *row = c < 3 ? k->x + c * LD : k->h, swap = row[l];
+
+            row[l] = row[LD - 1 - l], row[LD - 1 - l] = swap;
+        }
+    if (!call(k, k->again, "residual"))
+        return;
+    for (uint32_t o = 0; o < k->t->n_out; o++)
+        for (int c = 0; c < comps(k, &k->t->out[o]); c++)
+            for (int l = 0; l < LD; l++)
+                if (k->again[o][c * LD + l] != k->out[o][c * LD + LD - 1 - l]) {
+                    line(k, 0, "%s  output \"%s\": a point's value depends on the other points of its batch",
+                         k->t->name, k->t->out[o].name);
+                    return;
+                }
+    line(k, 1, "%s  batches in %dD: each point on its own", k->t->name, k->dim);
+}
+
+static double norm(const double *a, size_t n)
+{
+    double s = 0;
+
+    for (size_t i = 0; i < n; i++)
+        s += a[i] * a[i];
+    return sqrt(s);
+}
+
+static double distance(const double *a, const double *b, double factor, size_t n)
+{
+    double s = 0;
+
+    for (size_t i = 0; i < n; i++)
+        s += (a[i] - factor * b[i]) * (a[i] - factor * b[i]);
+    return sqrt(s);
+}
+
+/* |a - b^T| where b is the block with rows and columns exchanged as far as shapes allow. */
+static double transposed_distance(const double *a, const double *b, int rows, int cols, size_t ld)
+{
+    double s = 0;
+
+    for (int r = 0; r < rows; r++)
+        for (int c = 0; c < cols; c++)
+            for (size_t l = 0; l < ld; l++) {
+                double d = a[(size_t)(r * cols + c) * ld + l] - b[(size_t)(c * cols + r) * ld + l];
+
+                s += d * d;
+            }
+    return sqrt(s);
+}
+
+void selftest_diagnose(const double *given, const double *truth, int rows, int cols, size_t ld, char *text,
+                       size_t n)
+{
+    size_t m = (size_t)(rows * cols) * ld;
+    double size = norm(truth, m), mine = norm(given, m), dot = 0;
+    const double near = 1e-6;
+
+    for (size_t i = 0; i < m; i++)
+        dot += given[i] * truth[i];
+    *text = 0;
+    if (mine == 0)
+        snprintf(text, n, "missing: the block is zero, the derivative is not");
+    else if (size == 0)
+        snprintf(text, n, "superfluous: the derivative is zero, the block is not");
+    else if (distance(given, truth, -1, m) < near * size)
+        snprintf(text, n, "sign: the block is minus the derivative");
+    else if (distance(given, truth, dot / (size * size), m) < near * mine)
+        snprintf(text, n, "factor: the block is %.6g times the derivative", dot / (size * size));
+    else if (rows == cols && transposed_distance(given, truth, rows, cols, ld) < near * size)
+        snprintf(text, n, "transpose: rows and columns are exchanged");
+    else
+        snprintf(text, n, "wrong by %.2g of its norm", distance(given, truth, 1, m) / size);
+}
+
+/* Entries of a tensor block whose two indices were exchanged on one side: dv[a] / dgrad[k][a]. */
+static int inner_transpose(const bench *k, const pf_slot *in, const double *given, const double *truth, int rows)
+{
+    int d = k->dim, cols = d * d;
+    double s = 0;
+
+    if (in->shape != PF_TENSOR)
+        return 0;
+    for (int r = 0; r < rows; r++)
+        for (int a = 0; a < d; a++)
+            for (int b = 0; b < d; b++)
+                for (int l = 0; l < LD; l++) {
+                    double e = given[(r * cols + a * d + b) * LD + l] - truth[(r * cols + b * d + a) * LD + l];
+
+                    s += e * e;
+                }
+    return sqrt(s) < 1e-6 * norm(truth, (size_t)(rows * cols * LD));
+}
+
+static void compare_block(bench *k, uint32_t o, uint32_t i, const char *how, double tolerance)
+{
+    const pf_slot *out = &k->t->out[o], *in = &k->t->in[i];
+    int rows = comps(k, out), cols = comps(k, in);
+    const double *given = k->jac[o * k->t->n_in + i], *truth = k->truth[o * k->t->n_in + i];
+    size_t n = (size_t)(rows * cols * LD);
+    double size = norm(truth, n), e = distance(given, truth, 1, n);
+    char why[200];
+
+    if (e <= tolerance * size || (size == 0 && e == 0)) {
+        line(k, 1, "%s  d %s / d %s in %dD: analytic = %s to %.1e", k->t->name, out->name, in->name, k->dim, how,
+             size > 0 ? e / size : 0);
+        return;
+    }
+    selftest_diagnose(given, truth, rows, cols, LD, why, sizeof why);
+    if (strncmp(why, "wrong", 5) == 0 && inner_transpose(k, in, given, truth, rows))
+        snprintf(why, sizeof why, "transpose: the two indices of %s are exchanged", in->name);
+    line(k, 0, "%s  d %s / d %s in %dD: %s", k->t->name, out->name, in->name, k->dim, why);
+}
+
+static int derive(bench *k, enum term_derivative how, double **jac, const char *what)
+{
+    const pf_term *t = k->t;
+    double *given[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
+    int status;
+
+    for (uint32_t o = 0; o < t->n_out; o++)
+        for (uint32_t i = 0; i < t->n_in; i++) {
+            memset(jac[o * t->n_in + i], 0,
+                   (size_t)(comps(k, &t->out[o]) * comps(k, &t->in[i]) * LD) * sizeof(double));
+            given[o * t->n_in + i] = term_is_unknown(&t->in[i]) ? jac[o * t->n_in + i] : NULL;
+        }
+    k->report.status = 0;
+    term_now = (term_breadcrumb){k->p->d.name, t->name, what, 0};
+    status = term_jacobian(t, how, &k->b, (const double *const *)k->in, given, k->room);
+    term_now = (term_breadcrumb){0};
+    if (status)
+        line(k, 0, "%s  %s returned %d: %s", t->name, what, status,
+             k->report.status ? k->report.text : "without saying why");
+    return status == 0;
+}
+
+/* The complex twin must be the same function. */
+static void test_twin(bench *k)
+{
+    double worst = 0, size = 0;
+    pf_complex *z = k->room, *w[TERM_MAX_SLOTS];
+    const pf_complex *in[TERM_MAX_SLOTS];
+
+    for (uint32_t i = 0; i < k->t->n_in; i++) {
+        in[i] = z;
+        for (int c = 0; c < comps(k, &k->t->in[i]) * LD; c++)
+            *z++ = k->in[i][c];
+    }
+    for (uint32_t o = 0; o < k->t->n_out; o++) {
+        w[o] = z;
+        z += comps(k, &k->t->out[o]) * LD;
+    }
+    if (!call(k, k->out, "residual") || k->t->residual_c(&k->b, in, w))
+        return;
+    for (uint32_t o = 0; o < k->t->n_out; o++)
+        for (int c = 0; c < comps(k, &k->t->out[o]) * LD; c++) {
+            worst = fmax(worst, fabs(creal(w[o][c]) - k->out[o][c]));
+            size = fmax(size, fabs(k->out[o][c]));
+        }
+    if (worst <= 1e-13 * size)
+        line(k, 1, "%s  complex twin in %dD = residual", k->t->name, k->dim);
+    else
+        line(k, 0, "%s  residual_c differs from residual by %.2g (of %.2g); they must be one source", k->t->name,
+             worst, size);
+}
+
+static void test_jacobian(bench *k)
+{
+    const pf_term *t = k->t;
+    const char *how = t->residual_c ? "complex step" : "differences";
+    int unknowns = 0;
+
+    for (uint32_t i = 0; i < t->n_in; i++)
+        unknowns += term_is_unknown(&t->in[i]);
+    if (!unknowns || !derive(k, t->residual_c ? TERM_COMPLEX : TERM_FD, k->truth, how))
+        return;
+    for (uint32_t o = 0; o < t->n_out && t->depends; o++)
+        for (uint32_t i = 0; i < t->n_in; i++)
+            if (!t->depends[o * t->n_in + i] &&
+                norm(k->truth[o * t->n_in + i], (size_t)(comps(k, &t->out[o]) * comps(k, &t->in[i]) * LD)) > 0)
+                line(k, 0,
+                     "%s  \"%s\" depends on \"%s\", but depends[%u][%u] says it does not: undeclared dependency",
+                     t->name, t->out[o].name, t->in[i].name, o, i);
+    if (!t->jacobian) {
+        for (uint32_t o = 0; o < t->n_out; o++)
+            for (uint32_t i = 0; i < t->n_in; i++)
+                if (term_is_unknown(&t->in[i]))
+                    line(k, 1, "%s  d %s / d %s in %dD: by %s", t->name, t->out[o].name, t->in[i].name, k->dim,
+                         how);
+        return;
+    }
+    if (!derive(k, TERM_ANALYTIC, k->jac, "Jacobian"))
+        return;
+    for (uint32_t o = 0; o < t->n_out; o++)
+        for (uint32_t i = 0; i < t->n_in; i++)
+            if (term_is_unknown(&t->in[i]))
+                compare_block(k, o, i, how, t->residual_c ? SELFTEST_EXACT : SELFTEST_DIFFERENCES);
+}
+
+static void test_linearity(bench *k)
+{
+    const pf_term *t = k->t;
+    enum term_derivative how = t->residual_c ? TERM_COMPLEX : TERM_FD;
+
+    if (!(t->flags & PF_LINEAR))
+        return;
+    if (!derive(k, how, k->truth, "derivative"))
+        return;
+    random_inputs(k);
+    if (!derive(k, how, k->jac, "derivative"))
+        return;
+    for (uint32_t j = 0; j < t->n_out * t->n_in; j++) {
+        size_t n = (size_t)(comps(k, &t->out[j / t->n_in]) * comps(k, &t->in[j % t->n_in]) * LD);
+
+        if (term_is_unknown(&t->in[j % t->n_in]) &&
+            distance(k->jac[j], k->truth[j], 1, n) >
+                (t->residual_c ? 1e-12 : 1e-5) * (norm(k->truth[j], n) + 1e-300)) {
+            line(k, 0, "%s  is flagged PF_LINEAR, but d %s / d %s changes with the state", t->name,
+                 t->out[j / t->n_in].name, t->in[j % t->n_in].name);
+            return;
+        }
+    }
+    line(k, 1, "%s  linear in %dD, as flagged", t->name, k->dim);
+}
+
+static int test_term(selftest *s, const term_plugin *p, const pf_term *t, error *err)
+{
+    for (int dim = 2; dim <= 3; dim++) {
+        bench k;
+        int before = s->failed, status = bench_create(&k, s, p, t, dim, err);
+
+        if (!status) {
+            test_outputs(&k);
+            if (s->failed == before) {
+                test_batches(&k);
+                if (t->residual_c)
+                    test_twin(&k);
+                test_jacobian(&k);
+                test_linearity(&k);
+            }
+            for (uint32_t e = 0; e < t->n_example; e++)
+                if ((int)t->example[e].dim == dim)
+                    test_example(&k, &t->example[e]);
+        }
+        arena_free(&k.memory);
+        TRY(status);
+    }
+    return 0;
+}
+
+int selftest_run(selftest *s, const term_plugin *p, const char *only, error *err)
+{
+    int found = 0;
+
+    for (uint32_t i = 0; i < p->d.n_term; i++)
+        if (!only || strcmp(p->term[i].name, only) == 0) {
+            found = 1;
+            TRY(test_term(s, p, &p->term[i], err));
+        }
+    return found ? 0 : error_set(err, ERR_USAGE, "plugin \"%s\" has no term \"%s\"", p->d.name, only);
+}

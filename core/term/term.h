@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * term.h -- plugins as the kernel sees them: found, checked, copied into structs of this
+ * version's layout, and their point functions with derivatives. */
+#ifndef TERM_TERM_H
+#define TERM_TERM_H
+
+#include "base/arena.h"
+#include "base/error.h"
+
+#include <plugflow/mesh.h>
+#include <plugflow/plugin.h>
+#include <plugflow/solver.h>
+
+enum { TERM_MAX_SLOTS = 12, TERM_MAX_DIRS = 16, TERM_MAX_FILES = 64 };
+
+/* A plugin after its checks.  All strides are those of this version's structs. */
+typedef struct term_plugin {
+    const char *path;
+    pf_plugin d;
+    pf_term *term; /* [d.n_term] */
+} term_plugin;
+
+/* A shared object that was looked at. */
+typedef struct term_file {
+    char *path;
+    const char *kind;   /* "equation", "solver", "mesh" or NULL */
+    term_plugin plugin; /* kind "equation"                      */
+    const pf_solver *solver;
+    const pf_mesh_reader *mesh_reader;
+    char *refused; /* why it cannot be used, or NULL */
+} term_file;
+
+typedef struct registry {
+    int n_dir, n_file;
+    char *dir[TERM_MAX_DIRS];
+    term_file file[TERM_MAX_FILES];
+    arena memory;
+} registry;
+
+/* Looks in PLUGFLOW_PLUGIN_PATH, the build tree beside the program, the installed folder;
+ * loads the explicitly given files at once. */
+int registry_create(registry *r, const char *const *file, int n_file, error *err);
+int registry_load(registry *r, const char *path, term_file **out, error *err);
+int registry_equation(registry *r, const char *name, const term_plugin **out, error *err);
+int registry_solver(registry *r, const char *name, const pf_solver **out, error *err);
+int registry_mesh_reader(registry *r, const char *name, const pf_mesh_reader **out, error *err);
+/* Loads whatever lies in the folders; failures stay in file[].refused. */
+int registry_scan(registry *r, error *err);
+void registry_destroy(registry *r);
+
+/* Checks a description as it came from a file and copies it (check.c). */
+int term_adopt(const pf_plugin *d, const char *path, arena *memory, term_plugin *out, error *err);
+
+int term_components(uint32_t shape, int dim);
+/* 1 if the slot is an unknown, so that a Jacobian block belongs to it. */
+int term_is_unknown(const pf_slot *s);
+/* Shape that the slot must have for a field of this shape, or 0. */
+uint32_t term_slot_shape(uint32_t eval, uint32_t field_shape);
+const char *term_where_name(uint32_t where);
+const char *term_eval_name(uint32_t eval);
+/* The field that the plugin declares under this name, or NULL. */
+const pf_field *term_field(const term_plugin *p, const char *name);
+
+/* Fills the parameters of a term with their defaults. */
+void term_defaults(const pf_term *t, void *params);
+
+enum term_derivative { TERM_AUTO, TERM_ANALYTIC, TERM_COMPLEX, TERM_FD };
+
+/* Room that term_jacobian needs for ld lanes, in bytes. */
+size_t term_jacobian_room(const pf_term *t, int dim, uint32_t ld);
+/* d out / d in at every point, by hand, complex step or central differences (TERM_AUTO: the
+ * first that the term has).  jac as in pf_jacobian_fn; room from term_jacobian_room, 64-byte aligned. */
+int term_jacobian(const pf_term *t, enum term_derivative how, const pf_batch *b, const double *const *in,
+                  double *const *jac, void *room);
+
+/* What a crash handler needs to know: what this thread is computing. */
+typedef struct term_breadcrumb {
+    const char *plugin, *term, *phase;
+    int64_t cell;
+} term_breadcrumb;
+extern _Thread_local term_breadcrumb term_now;
+
+/* Where host->fail leaves its text; pf_batch.kernel points here. */
+typedef struct term_report {
+    const char *plugin, *term;
+    int status;
+    char text[1000];
+} term_report;
+
+#endif

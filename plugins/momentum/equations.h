@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Momentum (appendix A.7-A.15): what happens at one point.
+ *
+ * Compiled twice (twin_real.h, twin_complex.h), with T = double and T = pf_complex.  Arrays are [component][lane];
+ * a plain loop over lanes vectorises. */
+
+/* rho du/dt . v */
+static int F(inertia)(const pf_batch *b, const T *const *in, T *const *out)
+{
+    const struct fluid *f = b->params;
+    const T *restrict u_t = in[0];
+    T *restrict v = out[0];
+
+    for (uint32_t a = 0; a < b->dim; a++)
+        PF_LANES_OF (b, i)
+            v[a * LD + i] = f->density * u_t[a * LD + i];
+    return PF_OK;
+}
+
+/* rho (u . grad) u . v */
+static int F(convection)(const pf_batch *b, const T *const *in, T *const *out)
+{
+    const struct fluid *f = b->params;
+    const T *restrict u = in[0], *restrict grad_u = in[1];
+    T *restrict v = out[0];
+    const uint32_t d = b->dim;
+
+    for (uint32_t a = 0; a < d; a++) {
+        PF_LANES_OF (b, i)
+            v[a * LD + i] = 0;
+        for (uint32_t k = 0; k < d; k++)
+            PF_LANES_OF (b, i)
+                v[a * LD + i] += f->density * u[k * LD + i] * grad_u[(a * d + k) * LD + i];
+    }
+    return PF_OK;
+}
+
+/* (2 mu D(u) - p I) : grad v */
+static int F(stress)(const pf_batch *b, const T *const *in, T *const *out)
+{
+    const struct fluid *f = b->params;
+    const T *restrict grad_u = in[0], *restrict p = in[1];
+    T *restrict grad_v = out[0];
+    const uint32_t d = b->dim;
+
+    for (uint32_t a = 0; a < d; a++)
+        for (uint32_t k = 0; k < d; k++)
+            PF_LANES_OF (b, i)
+                grad_v[(a * d + k) * LD + i] =
+                    f->viscosity * (grad_u[(a * d + k) * LD + i] + grad_u[(k * d + a) * LD + i]) -
+                    (a == k ? p[i] : 0);
+    return PF_OK;
+}
+
+/* -(rho g + f) . v */
+static int F(body_force)(const pf_batch *b, const T *const *in, T *const *out)
+{
+    const struct fluid *f = b->params;
+    const T *restrict force = in[0];
+    T *restrict v = out[0];
+
+    for (uint32_t a = 0; a < b->dim; a++)
+        PF_LANES_OF (b, i)
+            v[a * LD + i] = -(f->density * f->gravity[a] + force[a * LD + i]);
+    return PF_OK;
+}
+
+/* -t . v on the boundary */
+static int F(traction)(const pf_batch *b, const T *const *in, T *const *out)
+{
+    const T *restrict traction = in[0];
+    T *restrict v = out[0];
+
+    for (uint32_t a = 0; a < b->dim; a++)
+        PF_LANES_OF (b, i)
+            v[a * LD + i] = -traction[a * LD + i];
+    return PF_OK;
+}
