@@ -150,17 +150,16 @@ static int explain_nan(newton_system *s, const newton_time *time, const double *
     return error_set(err, ERR_CONVERGE, "the residual is not a finite number");
 }
 
+/* Order and ratio at the last iteration that is above round-off. */
 static void observe_order(newton_report *r)
 {
     int k = r->iterations;
 
+    while (k > 1 && r->history[k] < 1e-14)
+        k--;
     r->ratio = k >= 1 && r->history[k - 1] > 0 ? r->history[k] / (r->history[k - 1] * r->history[k - 1]) : 0;
-    for (int i = 2; i <= k; i++) { /* the best of the iterations above round-off */
-        double a = r->history[i - 2], b = r->history[i - 1], c = r->history[i];
-
-        if (b < a && b < 1e-2 && c > 1e-15 && log(c / b) / log(b / a) > r->order)
-            r->order = log(c / b) / log(b / a);
-    }
+    if (k >= 2 && r->history[k - 1] < r->history[k - 2])
+        r->order = log(r->history[k] / r->history[k - 1]) / log(r->history[k - 1] / r->history[k - 2]);
 }
 
 int newton_solve(newton_system *s, const newton_time *time, const newton_options *o, double *x,
