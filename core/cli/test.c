@@ -67,7 +67,7 @@ int cli_test(const cli *o, error *err)
     if (child < 0)
         return test(o, err);
     if (child == 0) {
-        struct rlimit cpu = {TEST_SECONDS, TEST_SECONDS};
+        struct rlimit cpu = {TEST_SECONDS, TEST_SECONDS + 5};
 
         setrlimit(RLIMIT_CPU, &cpu);
         status = test(o, err);
@@ -80,8 +80,10 @@ int cli_test(const cli *o, error *err)
     *err->text = 0;
     if (WIFEXITED(status))
         return WEXITSTATUS(status);
-    return error_set(err, ERR_PLUGIN, "%s: the test ended by signal %d (%s); the line above says where",
-                     o->operand[0], WTERMSIG(status),
-                     WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL ? "it took too long"
-                                                                                : strsignal(WTERMSIG(status)));
+    if (WTERMSIG(status) == SIGXCPU)
+        return error_set(err, ERR_PLUGIN,
+                         "%s: the test takes longer than %d s; is there an endless loop after the last line above?",
+                         o->operand[0], TEST_SECONDS);
+    return error_set(err, ERR_PLUGIN, "%s: the test ended by signal %d (%s); the lines above say where",
+                     o->operand[0], WTERMSIG(status), strsignal(WTERMSIG(status)));
 }

@@ -279,13 +279,13 @@ static int save(const picture_content *c, int svg, const char *path, error *err)
     return status;
 }
 
-/* The raster of the frame's pixels, in an SVG twice as many a side. */
+/* The raster: detail values a side for each of the frame's pixels. */
 static int fill_frame(const vtu_file *v, const picture_view *view, const picture_field *f,
-                      const picture_outline *outline, const picture_figure *g, int svg, picture_raster *r, arena *a,
-                      error *err)
+                      const picture_outline *outline, const picture_figure *g, int detail, picture_raster *r,
+                      arena *a, error *err)
 {
-    r->w = (int)g->w * (svg ? 2 : 1);
-    r->h = (int)g->h * (svg ? 2 : 1);
+    r->w = (int)g->w * detail;
+    r->h = (int)g->h * detail;
     r->left = outline->low[0];
     r->top = outline->high[1];
     r->scale[0] = r->w / (outline->high[0] - outline->low[0]);
@@ -297,7 +297,7 @@ static int fill_frame(const vtu_file *v, const picture_view *view, const picture
 /* The frame's size hangs on the labels of the colours, their range on the values in the
  * frame: so the values are taken twice if the first guess of the frame does not fit. */
 static int compose(const vtu_file *v, const picture_options *o, const picture_view *view, const picture_field *f,
-                   const picture_outline *outline, picture_content *c, int svg, arena *a, error *err)
+                   const picture_outline *outline, picture_content *c, int detail, arena *a, error *err)
 {
     int width = o->width ? o->width : 1200;
     double range[2] = {0, 1};
@@ -309,12 +309,12 @@ static int compose(const vtu_file *v, const picture_options *o, const picture_vi
     c->figure = g;
     c->raster = r;
     figure_place(g, c->text, outline->low, outline->high, range, width);
-    TRY(fill_frame(v, view, f, outline, g, svg, r, a, err));
+    TRY(fill_frame(v, view, f, outline, g, detail, r, a, err));
     TRY(choose_range(o, r, f->colour, range, err));
     c->map = colour_map_of(range[0], range[1]);
     figure_place(g, c->text, outline->low, outline->high, range, width);
-    if (r->w != (int)g->w * (svg ? 2 : 1) || r->h != (int)g->h * (svg ? 2 : 1)) {
-        TRY(fill_frame(v, view, f, outline, g, svg, r, a, err));
+    if (r->w != (int)g->w * detail || r->h != (int)g->h * detail) {
+        TRY(fill_frame(v, view, f, outline, g, detail, r, a, err));
     }
     return 0;
 }
@@ -323,7 +323,7 @@ static int draw_file(const vtu_file *v, const char *title, const picture_options
                      error *err)
 {
     picture_view view;
-    picture_field f;
+    picture_field f = {0};
     picture_text labels;
     picture_outline outline;
     picture_content c = {.text = &labels, .outline = &outline, .arrows = o->lines};
@@ -336,7 +336,7 @@ static int draw_file(const vtu_file *v, const char *title, const picture_options
     TRY(label_axes(v, &view, &labels, err));
     TRY(label_title(v, &view, title, &labels, err));
     TRY(outline_make(v, &view, &outline, err));
-    status = compose(v, o, &view, &f, &outline, &c, svg, &a, err);
+    status = compose(v, o, &view, &f, &outline, &c, svg && o->width <= 4000 ? 2 : 1, &a, err);
     if (!status)
         status = save(&c, svg, path, err);
     outline_free(&outline);

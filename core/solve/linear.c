@@ -108,7 +108,7 @@ int linear_predict(linear *l, error *err)
     return 0;
 }
 
-static int precondition(linear *l, const double *b, double *x, error *err)
+int linear_apply(linear *l, const double *b, double *x, error *err)
 {
     char why[400] = "";
 
@@ -154,7 +154,7 @@ static int gmres(linear *l, const double *b, double *x, double tol, int limit, d
     while (k < limit && fabs(g[k]) > tol * size) {
         double *w = l->v + (k + 1) * n, *z = l->z + k * n, next;
 
-        TRY(precondition(l, l->v + k * n, z, err));
+        TRY(linear_apply(l, l->v + k * n, z, err));
         multiply(l, z, w);
         for (int i = 0; i <= k; i++) {
             h[k][i] = dot(n, w, l->v + i * n);

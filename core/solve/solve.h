@@ -37,6 +37,8 @@ int linear_create(linear *l, const pf_solver *solver, const space *s, int n_thre
 int linear_solve(linear *l, const double *b, double *x, double tol, error *err);
 /* Analyses the pattern: fills stats.cost; ERR_MEMORY if the factors will not fit. */
 int linear_predict(linear *l, error *err);
+/* x = the last factors' answer for b, right or not. */
+int linear_apply(linear *l, const double *b, double *x, error *err);
 void linear_forget(linear *l); /* the next solve factors afresh */
 void linear_destroy(linear *l);
 #define LINEAR_ACCEPT 1e-10

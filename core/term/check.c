@@ -103,18 +103,19 @@ static int wrong(error *err, const struct subject *s, const char *fmt, ...)
                      s->term ? s->term : "", why);
 }
 
-static int check_slots(const term_plugin *p, const pf_term *t, const pf_slot *slot, uint32_t n, int is_out,
-                       const struct subject *s, error *err)
+static int check_slots(const term_plugin *p, const pf_slot *slot, uint32_t n, int is_out, const struct subject *s,
+                       error *err)
 {
     const char *side = is_out ? "output" : "input";
 
-    if (n > TERM_MAX_SLOTS)
-        return wrong(err, s, "%u %s slots, at most %d are possible", n, side, TERM_MAX_SLOTS);
     for (uint32_t i = 0; i < n; i++) {
         const pf_field *f = term_field(p, slot[i].field);
 
         if (!is_name(slot[i].name))
             return wrong(err, s, "%s slot %u has no proper name (letters, digits, _)", side, i);
+        for (uint32_t k = 0; k < i; k++)
+            if (strcmp(slot[k].name, slot[i].name) == 0)
+                return wrong(err, s, "two %s slots are called \"%s\"", side, slot[i].name);
         if (slot[i].eval < PF_VALUE || slot[i].eval > PF_DEFECT ||
             (is_out && slot[i].eval != PF_VALUE && slot[i].eval != PF_GRAD && slot[i].eval != PF_DIV))
             return wrong(err, s, "%s slot \"%s\": eval %u is not possible there", side, slot[i].name, slot[i].eval);
@@ -138,11 +139,7 @@ static int check_slots(const term_plugin *p, const pf_term *t, const pf_slot *sl
             slot[i].eval != PF_OLD)
             return wrong(err, s, "%s slot \"%s\": field \"%s\" does not live on the mesh and has no %s", side,
                          slot[i].name, f->name, term_eval_name(slot[i].eval));
-        for (uint32_t k = 0; k < i; k++)
-            if (strcmp(slot[k].name, slot[i].name) == 0)
-                return wrong(err, s, "two %s slots are called \"%s\"", side, slot[i].name);
     }
-    (void)t;
     return 0;
 }
 
@@ -157,7 +154,7 @@ static int check_param(const pf_term *t, const pf_param *p, const struct subject
         return wrong(err, s, "parameter \"%s\" lacks a unit (\"1\" if it has none) or a line of doc", p->name);
     if (p->type < PF_T_REAL || p->type > PF_T_VECTOR)
         return wrong(err, s, "parameter \"%s\" has unknown type %u", p->name, p->type);
-    if (p->offset + bytes[p->type] > t->params_bytes)
+    if ((size_t)p->offset + bytes[p->type] > t->params_bytes)
         return wrong(err, s, "parameter \"%s\" at offset %u lies outside the %u bytes of params", p->name,
                      p->offset, t->params_bytes);
     if (p->type == PF_T_CHOICE) {
@@ -189,13 +186,22 @@ static int check_term(const term_plugin *p, const pf_term *t, const struct subje
         return wrong(err, s, "has no residual function");
     if (t->n_out == 0 || !t->out || (t->n_in && !t->in) || (t->n_param && !t->param))
         return wrong(err, s, "has no output, or a count without its array");
-    TRY(check_slots(p, t, t->in, t->n_in, 0, s, err));
-    TRY(check_slots(p, t, t->out, t->n_out, 1, s, err));
+    TRY(check_slots(p, t->in, t->n_in, 0, s, err));
+    TRY(check_slots(p, t->out, t->n_out, 1, s, err));
     for (uint32_t i = 0; i < t->n_param; i++) {
         TRY(check_param(t, &t->param[i], s, err));
         for (uint32_t k = 0; k < i; k++)
             if (strcmp(t->param[k].name, t->param[i].name) == 0)
                 return wrong(err, s, "two parameters are called \"%s\"", t->param[i].name);
+    }
+    for (uint32_t i = 0; i < t->n_example; i++) {
+        const pf_example *e = &t->example[i];
+        const char *name = e->name ? e->name : "";
+
+        if (e->dim != 2 && e->dim != 3)
+            return wrong(err, s, "example \"%s\" has dimension %u; 2 or 3 is possible", name, e->dim);
+        if (!e->name || (t->n_in && !e->in) || !e->out)
+            return wrong(err, s, "example \"%s\" lacks its values or its name", name);
     }
     if (t->flags & PF_BY_BOUNDARY) {
         int n_data = 0;
@@ -249,6 +255,9 @@ static int check_fields(const term_plugin *p, const struct subject *s, error *er
         if (f->support > PF_ON_PARTICLE || (f->support == PF_ON_MESH && f->order != 1 && f->order != 2))
             return wrong(err, s, "field \"%s\": order %u, support %u; order 1 or 2 on the mesh is possible",
                          f->name, f->order, f->support);
+        for (uint32_t k = 0; k < i; k++)
+            if (strcmp(p->d.field[k].name, f->name) == 0)
+                return wrong(err, s, "two fields are called \"%s\"", f->name);
     }
     return 0;
 }
@@ -281,6 +290,9 @@ int term_adopt(const pf_plugin *d, const char *path, arena *memory, term_plugin 
             return wrong(err, &s, "param_size = %u; set .param_size = sizeof(pf_param)", t->param_size);
         if (t->n_example && t->example_size < sizeof(pf_example))
             return wrong(err, &s, "example_size = %u; set .example_size = sizeof(pf_example)", t->example_size);
+        if (t->n_in > TERM_MAX_SLOTS || t->n_out > TERM_MAX_SLOTS)
+            return wrong(err, &s, "%u input slots and %u output slots, at most %d of each are possible", t->n_in,
+                         t->n_out, TERM_MAX_SLOTS);
         if ((t->n_in && !t->in) || !t->out || (t->n_param && !t->param) || (t->n_example && !t->example))
             return wrong(err, &s, "has no output, or a count without its array");
         t->in = adopt_array(memory, from->in, t->n_in, t->slot_size, sizeof(pf_slot));

@@ -35,9 +35,11 @@ static int host_fail(const pf_batch *b, uint32_t lane, int status, const char *f
     va_start(ap, fmt);
     vsnprintf(why, sizeof why, fmt, ap);
     va_end(ap);
-    if (b->x && lane < b->ld)
-        snprintf(at, sizeof at, " at x = (%.6g, %.6g%s%.6g)", b->x[lane], b->x[b->ld + lane],
-                 b->dim == 3 ? ", " : "; ", b->dim == 3 ? b->x[2 * b->ld + lane] : 0.0);
+    if (b->x && lane < b->ld && b->dim == 3)
+        snprintf(at, sizeof at, " at x = (%.6g, %.6g, %.6g)", b->x[lane], b->x[b->ld + lane],
+                 b->x[2 * b->ld + lane]);
+    else if (b->x && lane < b->ld)
+        snprintf(at, sizeof at, " at x = (%.6g, %.6g)", b->x[lane], b->x[b->ld + lane]);
     r->status = status;
     snprintf(r->text, sizeof r->text, "term %s.%s%s, t = %.6g: %s", r->plugin, r->term, at, b->t, why);
     return status;
@@ -185,7 +187,9 @@ int registry_load(registry *r, const char *path, term_file **out, error *err)
     f->path = arena_strdup(&r->memory, real);
     if (!f->path)
         return error_memory(err, "plugin", 0);
+    term_now = (term_breadcrumb){f->path, "entry", "while it is loaded", 0};
     status = load_file(r, f, err);
+    term_now = (term_breadcrumb){0};
     if (status)
         f->refused = arena_strdup(&r->memory, err->text);
     return status;

@@ -5,6 +5,8 @@
  * step (or differences), with a guess at what is wrong; declared dependencies; linearity. */
 #include "term/selftest.h"
 
+#include "term/block.h"
+
 #include <complex.h>
 #include <math.h>
 #include <stdarg.h>
@@ -178,7 +180,7 @@ static void test_example(bench *k, const pf_example *e)
         for (int c = 0; c < comps(k, &k->t->out[o]); c++, out++) {
             size = fmax(size, fabs(*out));
             if (!(fabs(k->out[o][c * LD] - *out) <= worst)) {
-                worst = fabs(k->out[o][c * LD] - *out);
+                worst = isnan(k->out[o][c * LD]) ? INFINITY : fabs(k->out[o][c * LD] - *out);
                 got = k->out[o][c * LD];
                 expected = *out;
                 snprintf(where, sizeof where, "%s[%d]", k->t->out[o].name, c);
@@ -190,27 +192,34 @@ static void test_example(bench *k, const pf_example *e)
         line(k, 0, "%s  example \"%s\": %s is %.15g, expected %.15g", k->t->name, e->name, where, got, expected);
 }
 
+/* The residual on outputs that hold `before` (NULL: it did not go well). */
+static double **outputs_over(bench *k, double **to, double before)
+{
+    for (uint32_t o = 0; o < k->t->n_out; o++)
+        for (int i = 0; i < comps(k, &k->t->out[o]) * LD; i++)
+            to[o][i] = before;
+    return call(k, to, "residual") ? to : NULL;
+}
+
 static void test_outputs(bench *k)
 {
-    for (int pass = 0; pass < 2; pass++) {
-        double **to = pass ? k->again : k->out;
+    static const char added[] = "is added to; the residual must assign, not add";
 
-        for (uint32_t o = 0; o < k->t->n_out; o++)
-            for (int i = 0; i < comps(k, &k->t->out[o]) * LD; i++)
-                to[o][i] = pass ? -7.7e77 : 7.7e77;
-        if (!call(k, to, "residual"))
-            return;
-    }
+    if (!outputs_over(k, k->out, 7.7e77) || !outputs_over(k, k->again, -7.7e77))
+        return;
     for (uint32_t o = 0; o < k->t->n_out; o++)
         for (int i = 0; i < comps(k, &k->t->out[o]) * LD; i++) {
             double a = k->out[o][i], b = k->again[o][i];
-            const char *why = a == 7.7e77 && b == -7.7e77 ? "is not written; the residual must assign every output"
-                              : !isfinite(a)              ? "is not a finite number on random values"
-                              : a != b && fabs(a - b) > 1e70  ? "is added to; the residual must assign, not add"
+            int kept = a == 7.7e77 && b == -7.7e77; /* not written, or a small number added */
+            const char *why = kept           ? "is not written; the residual must assign every output"
+                              : !isfinite(a) ? "is not a finite number on random values"
+                              : a != b && fabs(a - b) > 1e70  ? added
                               : memcmp(&a, &b, sizeof a) != 0 ? "differs between two calls with the same values"
                                                               : NULL;
 
             if (why) {
+                if (kept && outputs_over(k, k->again, 0) && k->again[o][i] != 0)
+                    why = added;
                 line(k, 0, "%s  output \"%s\"[%d] in %dD %s", k->t->name, k->t->out[o].name, i / LD, k->dim, why);
                 return;
             }
@@ -218,7 +227,14 @@ static void test_outputs(bench *k)
     line(k, 1, "%s  outputs in %dD assigned, finite, repeatable", k->t->name, k->dim);
 }
 
-/* The same points in another order must give the same values in that order. */
+static void depends_on_batch(bench *k, uint32_t o)
+{
+    line(k, 0, "%s  output \"%s\": a point's value depends on the other points of its batch", k->t->name,
+         k->t->out[o].name);
+}
+
+/* The same points in another order must give the same values in that order; and a point keeps
+ * its values whatever the others are. */
 static void test_batches(bench *k)
 {
     for (uint32_t i = 0; i < k->t->n_in; i++)
@@ -240,87 +256,47 @@ static void test_batches(bench *k)
         for (int c = 0; c < comps(k, &k->t->out[o]); c++)
             for (int l = 0; l < LD; l++)
                 if (k->again[o][c * LD + l] != k->out[o][c * LD + LD - 1 - l]) {
-                    line(k, 0, "%s  output \"%s\": a point's value depends on the other points of its batch",
-                         k->t->name, k->t->out[o].name);
+                    depends_on_batch(k, o);
                     return;
                 }
-    line(k, 1, "%s  batches in %dD: each point on its own", k->t->name, k->dim);
-}
-
-static double norm(const double *a, size_t n)
-{
-    double s = 0;
-
-    for (size_t i = 0; i < n; i++)
-        s += a[i] * a[i];
-    return sqrt(s);
-}
-
-static double distance(const double *a, const double *b, double factor, size_t n)
-{
-    double s = 0;
-
-    for (size_t i = 0; i < n; i++)
-        s += (a[i] - factor * b[i]) * (a[i] - factor * b[i]);
-    return sqrt(s);
-}
-
-/* |a - b^T| where b is the block with rows and columns exchanged as far as shapes allow. */
-static double transposed_distance(const double *a, const double *b, int rows, int cols, size_t ld)
-{
-    double s = 0;
-
-    for (int r = 0; r < rows; r++)
-        for (int c = 0; c < cols; c++)
-            for (size_t l = 0; l < ld; l++) {
-                double d = a[(size_t)(r * cols + c) * ld + l] - b[(size_t)(c * cols + r) * ld + l];
-
-                s += d * d;
+    for (uint32_t i = 0; i < k->t->n_in; i++)
+        for (int j = 0; j < comps(k, &k->t->in[i]) * LD; j++)
+            k->in[i][j] *= j % LD ? 1.5 : 1;
+    if (!call(k, k->again, "residual"))
+        return;
+    for (uint32_t o = 0; o < k->t->n_out; o++)
+        for (int c = 0; c < comps(k, &k->t->out[o]); c++)
+            if (k->again[o][c * LD] != k->out[o][c * LD + LD - 1]) {
+                depends_on_batch(k, o);
+                return;
             }
-    return sqrt(s);
+    line(k, 1, "%s  batches in %dD: each point on its own", k->t->name, k->dim);
 }
 
 void selftest_diagnose(const double *given, const double *truth, int rows, int cols, size_t ld, char *text,
                        size_t n)
 {
     size_t m = (size_t)(rows * cols) * ld;
-    double size = norm(truth, m), mine = norm(given, m), dot = 0;
+    double size = block_norm(truth, m), mine = block_norm(given, m), dot = 0;
     const double near = 1e-6;
 
     for (size_t i = 0; i < m; i++)
         dot += given[i] * truth[i];
     *text = 0;
-    if (mine == 0)
+    if (!isfinite(mine))
+        snprintf(text, n, "the block is not finite");
+    else if (mine == 0)
         snprintf(text, n, "missing: the block is zero, the derivative is not");
     else if (size == 0)
         snprintf(text, n, "superfluous: the derivative is zero, the block is not");
-    else if (distance(given, truth, -1, m) < near * size)
+    else if (block_distance(given, truth, -1, m) < near * size)
         snprintf(text, n, "sign: the block is minus the derivative");
-    else if (distance(given, truth, dot / (size * size), m) < near * mine)
+    else if (block_distance(given, truth, dot / (size * size), m) < near * mine)
         snprintf(text, n, "factor: the block is %.6g times the derivative", dot / (size * size));
-    else if (rows == cols && transposed_distance(given, truth, rows, cols, ld) < near * size)
+    else if (rows == cols && block_transposed_distance(given, truth, rows, ld) < near * size)
         snprintf(text, n, "transpose: rows and columns are exchanged");
     else
-        snprintf(text, n, "wrong by %.2g of its norm", distance(given, truth, 1, m) / size);
-}
-
-/* Entries of a tensor block whose two indices were exchanged on one side: dv[a] / dgrad[k][a]. */
-static int inner_transpose(const bench *k, const pf_slot *in, const double *given, const double *truth, int rows)
-{
-    int d = k->dim, cols = d * d;
-    double s = 0;
-
-    if (in->shape != PF_TENSOR)
-        return 0;
-    for (int r = 0; r < rows; r++)
-        for (int a = 0; a < d; a++)
-            for (int b = 0; b < d; b++)
-                for (int l = 0; l < LD; l++) {
-                    double e = given[(r * cols + a * d + b) * LD + l] - truth[(r * cols + b * d + a) * LD + l];
-
-                    s += e * e;
-                }
-    return sqrt(s) < 1e-6 * norm(truth, (size_t)(rows * cols * LD));
+        snprintf(text, n, "wrong by %.2g of its norm", block_distance(given, truth, 1, m) / size);
 }
 
 static void compare_block(bench *k, uint32_t o, uint32_t i, const char *how, double tolerance)
@@ -329,7 +305,7 @@ static void compare_block(bench *k, uint32_t o, uint32_t i, const char *how, dou
     int rows = comps(k, out), cols = comps(k, in);
     const double *given = k->jac[o * k->t->n_in + i], *truth = k->truth[o * k->t->n_in + i];
     size_t n = (size_t)(rows * cols * LD);
-    double size = norm(truth, n), e = distance(given, truth, 1, n);
+    double size = block_norm(truth, n), e = block_distance(given, truth, 1, n);
     char why[200];
 
     if (e <= tolerance * size || (size == 0 && e == 0)) {
@@ -338,8 +314,12 @@ static void compare_block(bench *k, uint32_t o, uint32_t i, const char *how, dou
         return;
     }
     selftest_diagnose(given, truth, rows, cols, LD, why, sizeof why);
-    if (strncmp(why, "wrong", 5) == 0 && inner_transpose(k, in, given, truth, rows))
+    if (strncmp(why, "wrong", 5) == 0 && in->shape == PF_TENSOR &&
+        block_exchanged_distance(given, truth, rows, k->dim, LD, 0) < 1e-6 * size)
         snprintf(why, sizeof why, "transpose: the two indices of %s are exchanged", in->name);
+    else if (strncmp(why, "wrong", 5) == 0 && in->shape == PF_TENSOR &&
+             block_exchanged_distance(given, truth, rows, k->dim, LD, 1) < 1e-6 * size)
+        snprintf(why, sizeof why, "transpose: the part with the two indices of %s exchanged is missing", in->name);
     line(k, 0, "%s  d %s / d %s in %dD: %s", k->t->name, out->name, in->name, k->dim, why);
 }
 
@@ -369,6 +349,7 @@ static int derive(bench *k, enum term_derivative how, double **jac, const char *
 static void test_twin(bench *k)
 {
     double worst = 0, size = 0;
+    int status;
     pf_complex *z = k->room, *w[TERM_MAX_SLOTS];
     const pf_complex *in[TERM_MAX_SLOTS];
 
@@ -381,11 +362,21 @@ static void test_twin(bench *k)
         w[o] = z;
         z += comps(k, &k->t->out[o]) * LD;
     }
-    if (!call(k, k->out, "residual") || k->t->residual_c(&k->b, in, w))
+    if (!call(k, k->out, "residual"))
         return;
+    term_now = (term_breadcrumb){k->p->d.name, k->t->name, "complex twin", 0};
+    status = k->t->residual_c(&k->b, in, w);
+    term_now = (term_breadcrumb){0};
+    if (status) {
+        line(k, 0, "%s  residual_c returned %d where residual returned 0; they must be one source", k->t->name,
+             status);
+        return;
+    }
     for (uint32_t o = 0; o < k->t->n_out; o++)
         for (int c = 0; c < comps(k, &k->t->out[o]) * LD; c++) {
-            worst = fmax(worst, fabs(creal(w[o][c]) - k->out[o][c]));
+            double e = fabs(creal(w[o][c]) - k->out[o][c]);
+
+            worst = isnan(e) ? INFINITY : fmax(worst, e);
             size = fmax(size, fabs(k->out[o][c]));
         }
     if (worst <= 1e-13 * size)
@@ -393,6 +384,29 @@ static void test_twin(bench *k)
     else
         line(k, 0, "%s  residual_c differs from residual by %.2g (of %.2g); they must be one source", k->t->name,
              worst, size);
+}
+
+/* 1 if the complex step (in truth) and differences agree: the twin is an analytic function. */
+static int twin_derives(bench *k)
+{
+    const pf_term *t = k->t;
+
+    if (!derive(k, TERM_FD, k->jac, "differences"))
+        return 0;
+    for (uint32_t o = 0; o < t->n_out; o++)
+        for (uint32_t i = 0; i < t->n_in; i++) {
+            size_t n = (size_t)(comps(k, &t->out[o]) * comps(k, &t->in[i]) * LD);
+            const double *a = k->truth[o * t->n_in + i], *b = k->jac[o * t->n_in + i];
+
+            if (term_is_unknown(&t->in[i]) && !(block_distance(a, b, 1, n) <= 1e-3 * block_norm(b, n) + 1e-6)) {
+                line(k, 0,
+                     "%s  d %s / d %s in %dD: residual_c does not carry the derivative (norm %.6g, by differences "
+                     "%.6g); has it fabs, a real part or a real variable in it?",
+                     t->name, t->out[o].name, t->in[i].name, k->dim, block_norm(a, n), block_norm(b, n));
+                return 0;
+            }
+        }
+    return 1;
 }
 
 static void test_jacobian(bench *k)
@@ -405,10 +419,13 @@ static void test_jacobian(bench *k)
         unknowns += term_is_unknown(&t->in[i]);
     if (!unknowns || !derive(k, t->residual_c ? TERM_COMPLEX : TERM_FD, k->truth, how))
         return;
+    if (t->residual_c && !twin_derives(k))
+        return;
     for (uint32_t o = 0; o < t->n_out && t->depends; o++)
         for (uint32_t i = 0; i < t->n_in; i++)
             if (!t->depends[o * t->n_in + i] &&
-                norm(k->truth[o * t->n_in + i], (size_t)(comps(k, &t->out[o]) * comps(k, &t->in[i]) * LD)) > 0)
+                block_norm(k->truth[o * t->n_in + i], (size_t)(comps(k, &t->out[o]) * comps(k, &t->in[i]) * LD)) >
+                    0)
                 line(k, 0,
                      "%s  \"%s\" depends on \"%s\", but depends[%u][%u] says it does not: undeclared dependency",
                      t->name, t->out[o].name, t->in[i].name, o, i);
@@ -444,8 +461,8 @@ static void test_linearity(bench *k)
         size_t n = (size_t)(comps(k, &t->out[j / t->n_in]) * comps(k, &t->in[j % t->n_in]) * LD);
 
         if (term_is_unknown(&t->in[j % t->n_in]) &&
-            distance(k->jac[j], k->truth[j], 1, n) >
-                (t->residual_c ? 1e-12 : 1e-5) * (norm(k->truth[j], n) + 1e-300)) {
+            block_distance(k->jac[j], k->truth[j], 1, n) >
+                (t->residual_c ? 1e-12 : 1e-5) * (block_norm(k->truth[j], n) + 1e-300)) {
             line(k, 0, "%s  is flagged PF_LINEAR, but d %s / d %s changes with the state", t->name,
                  t->out[j / t->n_in].name, t->in[j % t->n_in].name);
             return;

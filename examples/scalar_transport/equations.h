@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Transport of heat and Boussinesq buoyancy: what happens at one point.
+ *
+ * Compiled twice (twin_real.h, twin_complex.h); T is the number type, not the temperature. */
+
+/* rho c dT/dt s */
+static int F(storage)(const pf_batch *b, const T *const *in, T *const *out)
+{
+    const struct heat *h = b->params;
+    const T *restrict T_t = in[0];
+    T *restrict s = out[0];
+
+    PF_LANES_OF (b, i)
+        s[i] = h->density * h->heat_capacity * T_t[i];
+    return PF_OK;
+}
+
+/* rho c (u . grad T) s */
+static int F(advection)(const pf_batch *b, const T *const *in, T *const *out)
+{
+    const struct heat *h = b->params;
+    const T *restrict u = in[0], *restrict grad_T = in[1];
+    T *restrict s = out[0];
+
+    PF_LANES_OF (b, i)
+        s[i] = 0;
+    for (uint32_t k = 0; k < b->dim; k++)
+        PF_LANES_OF (b, i)
+            s[i] += h->density * h->heat_capacity * u[k * LD + i] * grad_T[k * LD + i];
+    return PF_OK;
+}
+
+/* k grad T . grad s */
+static int F(diffusion)(const pf_batch *b, const T *const *in, T *const *out)
+{
+    const struct heat *h = b->params;
+    const T *restrict grad_T = in[0];
+    T *restrict grad_s = out[0];
+
+    for (uint32_t k = 0; k < b->dim; k++)
+        PF_LANES_OF (b, i)
+            grad_s[k * LD + i] = h->conductivity * grad_T[k * LD + i];
+    return PF_OK;
+}
+
+/* rho beta (T - T_ref) g . v, what remains of -rho(T) g . v beside the -rho g . v of momentum */
+static int F(buoyancy)(const pf_batch *b, const T *const *in, T *const *out)
+{
+    const struct heat *h = b->params;
+    const T *restrict temperature = in[0];
+    T *restrict v = out[0];
+
+    for (uint32_t a = 0; a < b->dim; a++)
+        PF_LANES_OF (b, i)
+            v[a * LD + i] = h->density * h->expansion * (temperature[i] - h->reference_temperature) * h->gravity[a];
+    return PF_OK;
+}
+
+/* -q s on the boundary, q > 0 into the fluid */
+static int F(heat_flux)(const pf_batch *b, const T *const *in, T *const *out)
+{
+    const T *restrict q = in[0];
+    T *restrict s = out[0];
+
+    PF_LANES_OF (b, i)
+        s[i] = -q[i];
+    return PF_OK;
+}

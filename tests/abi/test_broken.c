@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What plugflow test says about plugins with one error each: exit code and message.  The
+ * plugins come from broken.c, from altered copies of the momentum plugin, and from frozen/.
+ *
+ *     PLUGFLOW_PROGRAM      the program
+ *     PLUGFLOW_BROKEN_DIR   folder of the plugins, NAME.so                                 */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <cmocka.h>
+
+enum { EXIT_OK = 0, EXIT_PLUGIN = 5, MAX_TEXTS = 4 };
+
+/* One call of the program: `before` FILE `after`, its exit code, and what its output contains. */
+struct expected {
+    const char *before, *file, *after;
+    int code;
+    const char *text[MAX_TEXTS]; /* NULL-terminated */
+};
+
+static const char *setting(const char *name)
+{
+    const char *value = getenv(name);
+
+    if (!value || !*value)
+        fail_msg("the environment variable %s is not set", name);
+    return value;
+}
+
+static void answers_as_expected(void **state)
+{
+    const struct expected *e = *state;
+    static char output[1 << 16];
+    char command[4096];
+    size_t n;
+    int status;
+    FILE *p;
+
+    snprintf(command, sizeof command, "'%s' %s '%s/%s' %s 2>&1", setting("PLUGFLOW_PROGRAM"), e->before,
+             setting("PLUGFLOW_BROKEN_DIR"), e->file, e->after);
+    p = popen(command, "r");
+    assert_non_null(p);
+    n = fread(output, 1, sizeof output - 1, p);
+    output[n] = 0;
+    status = pclose(p);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != e->code)
+        fail_msg("%s\nended with %s %d, expected exit code %d; it says\n%s", command,
+                 WIFEXITED(status) ? "exit code" : "signal",
+                 WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status), e->code, output);
+    for (int i = 0; i < MAX_TEXTS && e->text[i]; i++)
+        if (!strstr(output, e->text[i]))
+            fail_msg("%s\ndoes not say\n  %s\nbut\n%s", command, e->text[i], output);
+}
+
+#define CALL(FACT, BEFORE, FILE, AFTER, CODE, ...)                                                                 \
+    {                                                                                                              \
+        FACT, answers_as_expected, NULL, NULL, &(struct expected)                                                  \
+        {                                                                                                          \
+            BEFORE, FILE, AFTER, CODE,                                                                             \
+            {                                                                                                      \
+                __VA_ARGS__                                                                                        \
+            }                                                                                                      \
+        }                                                                                                          \
+    }
+/* plugflow test NAME.so ends with exit code 5 and says the texts. */
+#define TOLD(NAME, ...)   CALL(#NAME "_is_told", "test", #NAME ".so", "", EXIT_PLUGIN, __VA_ARGS__)
+#define LOADS(FACT, FILE) CALL(FACT, "test", FILE, "", EXIT_OK, " 0 failed")
+
+static const struct CMUnitTest tests[] = {
+    LOADS("sound_plugin_passes", "sound.so"),
+    LOADS("plugin_of_a_later_minor_version_with_longer_structs_passes", "later_minor.so"),
+    LOADS("frozen_header_1_0_loads", "frozen_1_0.so"),
+
+    /* files */
+    TOLD(nowhere, "nowhere.so does not exist"),
+    TOLD(not_elf, "not_elf.so cannot be loaded", "invalid ELF header"),
+    TOLD(no_entry, "is no plugin: it exports none of pf_plugin_entry", "PF_EXPORT"),
+    TOLD(undefined_symbol, "undefined_symbol.so cannot be loaded", "undefined symbol: a_function_that_nobody_has"),
+
+    /* the description of the plugin */
+    TOLD(wrong_abi_major, "built for plugin interface 2.0, this plugflow has 1.", "rebuild"),
+    TOLD(needs_newer_minor, "needs plugin interface 1.1 or later, this plugflow has 1.0", "update plugflow"),
+    TOLD(plugin_too_small, "its pf_plugin has 40 bytes, at least", "set .size = sizeof(pf_plugin)"),
+    TOLD(other_type_sizes, "built with other type sizes (0x40404, here 0x80808)"),
+    TOLD(bad_plugin_name, "has no proper name"),
+    TOLD(no_license, "lacks a version or a license"),
+    TOLD(no_terms, "describes no term"),
+    TOLD(wrong_field_size, "field_size = 8; set .field_size = sizeof(pf_field)"),
+    TOLD(declines, "declines.so declines to start: needs a licence server"),
+    TOLD(declines_silently, "declines to start: it gives no reason"),
+    TOLD(crash_in_entry, "crashed (bad memory access)", "crash_in_entry.so", "while it is loaded"),
+
+    /* fields and terms */
+    TOLD(bad_field_order, "field \"u\": order 3", "order 1 or 2"),
+    TOLD(duplicate_field, "two fields are called \"u\""),
+    TOLD(term_too_small, "term 0 has 64 bytes, at least", "set .size = sizeof(pf_term)"),
+    TOLD(wrong_slot_size, "term convection: slot_size = 8; set .slot_size = sizeof(pf_slot)"),
+    TOLD(wrong_param_size, "term convection: param_size = 8; set .param_size = sizeof(pf_param)"),
+    TOLD(wrong_example_size, "term convection: example_size = 8; set .example_size = sizeof(pf_example)"),
+    TOLD(bad_term_name, "a term has no proper name"),
+    TOLD(duplicate_term, "term convection: two terms have this name"),
+    TOLD(no_citation, "lacks doc (its weak form) or cite"),
+    TOLD(no_residual, "term convection: has no residual function"),
+    TOLD(no_output, "term convection: has no output"),
+    TOLD(unknown_place, "acts on unknown points, where = 17"),
+    TOLD(on_surface, "acts on PF_SURFACE points, which this version does not feed yet"),
+    TOLD(by_boundary_in_cells, "has PF_BY_BOUNDARY, so it must act on PF_FACET"),
+
+    /* slots */
+    TOLD(duplicate_slot, "two input slots are called \"u\""),
+    TOLD(duplicate_data_slot, "two input slots are called \"u\""),
+    TOLD(undeclared_field, "input slot \"u\" uses field \"temperature\", an undeclared dependency"),
+    TOLD(wrong_slot_shape, "input slot \"grad_u\": the gradient of field \"u\" has another shape"),
+    TOLD(output_of_old_value, "output slot \"v\": eval 5 is not possible there"),
+    TOLD(defect_slot, "slot \"u\" asks for PF_DEFECT, which this version does not feed yet"),
+    TOLD(too_many_slots, "268435456 input slots and 1 output slots, at most 12 of each are possible"),
+
+    /* parameters */
+    TOLD(default_out_of_range, "parameter \"density\": default -1 lies outside its own range [0, 1e+30]"),
+    TOLD(param_outside_struct, "parameter \"density\" at offset 40 lies outside the 40 bytes of params"),
+    TOLD(param_offset_wraps, "parameter \"density\" at offset 4294967292 lies outside the 40 bytes of params"),
+    TOLD(choice_out_of_range, "parameter \"form\": default 2 is none of its 2 choices"),
+    TOLD(duplicate_param, "two parameters are called \"density\""),
+    TOLD(param_without_unit, "parameter \"density\" lacks a unit"),
+
+    /* worked examples */
+    TOLD(wrong_example, "WRONG  convection  example \"one point\": v[1] is 33, expected 34"),
+    TOLD(example_of_no_dimension, "example \"one point\" has dimension 0; 2 or 3 is possible"),
+    TOLD(example_without_output, "example \"one point\" lacks its values"),
+    TOLD(nan_in_example, "example \"one point\": v[0] is ", "nan, expected 21"),
+
+    /* residuals */
+    TOLD(unwritten, "output \"v\"[0] in 2D is not written; the residual must assign every output"),
+    TOLD(added, "output \"v\"[0] in 2D is added to; the residual must assign, not add"),
+    TOLD(nan_output, "output \"v\"[0] in 2D is not a finite number on random values"),
+    TOLD(unrepeatable, "output \"v\"[0] in 2D differs between two calls with the same values"),
+    TOLD(neighbour, "output \"v\": a point's value depends on the other points of its batch"),
+    TOLD(batch_maximum, "output \"v\": a point's value depends on the other points of its batch"),
+    TOLD(fails, "convection  returned -1 on random values: term broken.convection at x = (",
+         ": density -4.5 is not possible"),
+    TOLD(fails_silently, "convection  returned 1 on random values: without saying why"),
+    TOLD(crash, "crashed (bad memory access) inside term broken.convection, residual",
+         "crash.so: the test ended by signal 11"),
+
+    /* Jacobians */
+    TOLD(sign, "d v / d u in 2D: sign: the block is minus the derivative",
+         "d v / d grad_u in 2D: analytic = complex step"),
+    TOLD(factor, "d v / d u in 2D: factor: the block is 2 times the derivative"),
+    TOLD(transpose, "d v / d u in 2D: transpose: rows and columns are exchanged"),
+    TOLD(missing, "d v / d u in 2D: missing: the block is zero, the derivative is not"),
+    TOLD(exchanged, "d v / d grad_u in 2D: transpose: the two indices of grad_u are exchanged",
+         "d v / d grad_u in 3D: transpose: the two indices of grad_u are exchanged"),
+    TOLD(incomplete, "d v / d grad_u in 2D: wrong by "),
+    TOLD(nan_jacobian, "d v / d u in 2D: the block is not finite"),
+    TOLD(failing, "Jacobian returned -1: term broken.convection at x = (", "no derivative at 1"),
+    TOLD(crashing, "crashed (bad memory access) inside term broken.convection, Jacobian"),
+    TOLD(denied_coupling, "\"v\" depends on \"u\", but depends[0][0] says it does not: undeclared dependency"),
+    TOLD(not_linear, "is flagged PF_LINEAR, but d v / d u changes with the state"),
+
+    /* complex twins */
+    TOLD(different, "residual_c differs from residual by ", "they must be one source"),
+    TOLD(nan_twin, "residual_c differs from residual by "),
+    TOLD(failing_twin, "residual_c returned -1"),
+    TOLD(crashing_twin, "crashed (bad memory access) inside term broken.convection, complex twin"),
+    TOLD(not_analytic, "d v / d u in 2D: residual_c does not carry the derivative"),
+
+    /* the momentum plugin with one error in its source */
+    TOLD(planted_sign, "WRONG  convection  d v / d u in 2D: sign: the block is minus the derivative"),
+    TOLD(planted_factor, "WRONG  stress  d grad_v / d grad_u in 2D: factor: the block is 2 times the derivative"),
+    TOLD(planted_transpose, "WRONG  convection  d v / d grad_u in 2D: transpose: the two indices of grad_u"),
+    TOLD(planted_missing, "WRONG  stress  d grad_v / d p in 2D: missing: the block is zero"),
+    TOLD(planted_half, "WRONG  stress  d grad_v / d grad_u in 2D: transpose: ", "is missing"),
+    TOLD(planted_residual, "WRONG  stress  example \"grad u = (1 2; 4 -1)", "grad_v[1] is 12, expected 18"),
+
+    /* names */
+    LOADS("copy_of_momentum_passes_on_its_own", "momentum_copy.so"),
+    CALL("two_plugins_of_one_name_are_told_with_both_files", "describe momentum --plugin", "momentum_copy.so", "",
+         EXIT_PLUGIN, "two plugins are called \"momentum\": ", "/momentum_copy.so and ", "/momentum.so; remove"),
+    CALL("two_plugins_of_one_name_are_listed_with_both_files", "plugins --plugin", "momentum_copy.so", "", EXIT_OK,
+         "two plugins are called \"momentum\": ", "/momentum_copy.so and ", "/momentum.so; remove"),
+};
+
+int main(void)
+{
+    struct rlimit none = {0, 0};
+
+    setrlimit(RLIMIT_CORE, &none);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

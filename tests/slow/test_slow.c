@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Verification that takes minutes; its results stand in docs/verification.md. */
+#include "verify/ghia.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static void cavity(int re, int column, double largest)
+{
+    ghia_error e;
+
+    assert_ran(plugflow("run cases/cavity2d.lua --quiet --set n=128 --set re=%d --out %s/cavity", re, scratch()), 0,
+               NULL);
+    e = ghia_compare("cavity", column);
+    print_message("# cavity 128 x 128, Re %d: largest difference %.4f, median %.4f; %g Newton iterations, %g s\n",
+                  re, e.largest, e.median, summary("cavity", "newton_iterations"),
+                  summary("cavity", "seconds.total"));
+    assert_between(e.largest, 0, largest);
+    assert_between(e.median, 0, 0.005);
+    assert_between(summary("cavity", "worst_linear_residual"), 0, 1e-10);
+}
+
+static void cavity_128_agrees_with_ghia_at_re_100(void **state)
+{
+    (void)state;
+    cavity(100, 1, 0.01);
+}
+
+static void cavity_128_agrees_with_ghia_at_re_400(void **state)
+{
+    (void)state;
+    cavity(400, 2, 0.02);
+}
+
+static void cavity_128_agrees_with_ghia_at_re_1000(void **state)
+{
+    (void)state;
+    cavity(1000, 3, 0.02);
+}
+
+static void dfg_2d_2_lies_in_the_published_intervals(void **state)
+{
+    (void)state;
+    assert_ran(
+        plugflow("run cases/cylinder2d.lua --quiet --set unsteady=true --set dt=0.005 --set stop=10 --out %s/dfg",
+                 scratch()),
+        0, NULL);
+    print_message("# DFG 2D-2: cd_max %.5f, cl_max %.5f, St %.5f; %g s\n", summary("dfg", "cd_max"),
+                  summary("dfg", "cl_max"), summary("dfg", "strouhal"), summary("dfg", "seconds.total"));
+    assert_between(summary("dfg", "cd_max"), 3.22, 3.24);
+    assert_between(summary("dfg", "cl_max"), 0.99, 1.01);
+    assert_between(summary("dfg", "strouhal"), 0.295, 0.305);
+}
+
+static void dfg_3d_1z_is_a_few_per_cent_off_on_its_coarse_mesh(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("run cases/cylinder3d.lua --quiet --out %s/cyl3", scratch()), 0, NULL);
+    print_message("# DFG 3D-1Z, %g unknowns: cd %.4f, cl %.5f, dp %.5f\n", summary("cyl3", "unknowns"),
+                  summary("cyl3", "cd"), summary("cyl3", "cl"), summary("cyl3", "dp"));
+    assert_between(summary("cyl3", "cd"), 0.95 * 6.05, 1.05 * 6.25);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cavity_128_agrees_with_ghia_at_re_100),
+        cmocka_unit_test(cavity_128_agrees_with_ghia_at_re_400),
+        cmocka_unit_test(cavity_128_agrees_with_ghia_at_re_1000),
+        cmocka_unit_test(dfg_3d_1z_is_a_few_per_cent_off_on_its_coarse_mesh),
+        cmocka_unit_test(dfg_2d_2_lies_in_the_published_intervals),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Strings, arenas, diagnoses of Jacobian blocks. */
+#include "base/arena.h"
+#include "base/text.h"
+#include "term/selftest.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void nearest_name_is_found_for_slips_only(void **state)
+{
+    const char *const names[] = {"density", "gravity", "viscosity"};
+
+    (void)state;
+    assert_string_equal(text_nearest("viscosty", names, 3), "viscosity");
+    assert_string_equal(text_nearest("desnity", names, 3), "density");
+    assert_null(text_nearest("temperature", names, 3));
+    assert_int_equal(text_distance("ab", "ba"), 1);
+}
+
+static void numbers_read_back_as_the_same_bits(void **state)
+{
+    const double v[] = {0.1, 1.0 / 3, 1e-300, -7.25, 123456789.123456789};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof v / sizeof *v; i++) {
+        text t = {0};
+
+        text_number(&t, v[i]);
+        assert_true(strtod(t.s, NULL) == v[i]);
+        text_free(&t);
+    }
+}
+
+static void what_is_not_finite_becomes_null(void **state)
+{
+    text t = {0};
+
+    (void)state;
+    text_number(&t, NAN);
+    assert_string_equal(t.s, "null");
+    text_free(&t);
+}
+
+static void arena_memory_is_zeroed_aligned_and_refuses_overflow(void **state)
+{
+    arena a = {0};
+    double *p = arena_alloc(&a, 3, sizeof *p);
+
+    (void)state;
+    assert_int_equal((uintptr_t)p % 64, 0);
+    assert_true(p[0] == 0 && p[2] == 0);
+    assert_null(arena_alloc(&a, SIZE_MAX / 4, 8));
+    arena_free(&a);
+}
+
+static void diagnosis_names_sign_factor_transpose_and_missing(void **state)
+{
+    const double truth[4] = {1, 2, 3, 4}, minus[4] = {-1, -2, -3, -4}, twice[4] = {2, 4, 6, 8},
+                 turned[4] = {1, 3, 2, 4};
+    const double none[4] = {0}, wrong[4] = {1, 2, 3, 9};
+    char text[200];
+
+    (void)state;
+    selftest_diagnose(minus, truth, 2, 2, 1, text, sizeof text);
+    assert_non_null(strstr(text, "sign"));
+    selftest_diagnose(twice, truth, 2, 2, 1, text, sizeof text);
+    assert_non_null(strstr(text, "factor"));
+    selftest_diagnose(turned, truth, 2, 2, 1, text, sizeof text);
+    assert_non_null(strstr(text, "transpose"));
+    selftest_diagnose(none, truth, 2, 2, 1, text, sizeof text);
+    assert_non_null(strstr(text, "missing"));
+    selftest_diagnose(wrong, truth, 2, 2, 1, text, sizeof text);
+    assert_non_null(strstr(text, "wrong by"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nearest_name_is_found_for_slips_only),
+        cmocka_unit_test(numbers_read_back_as_the_same_bits),
+        cmocka_unit_test(what_is_not_finite_becomes_null),
+        cmocka_unit_test(arena_memory_is_zeroed_aligned_and_refuses_overflow),
+        cmocka_unit_test(diagnosis_names_sign_factor_transpose_and_missing),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

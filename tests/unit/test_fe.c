@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Reference elements and quadrature. */
+#include "fe/fe.h"
+
+#include <plugflow/mesh.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+
+static const int types[4] = {PF_TRI6, PF_QUAD9, PF_TET10, PF_HEX27};
+
+static void basis_is_one_at_its_node_and_zero_at_others(void **state)
+{
+    (void)state;
+    for (int t = 0; t < 4; t++) {
+        const fe_cell *c = fe_cell_of(types[t]);
+        double n[FE_MAX_NODES], dn[FE_MAX_NODES][3];
+
+        for (int order = 1; order <= 2; order++)
+            for (int i = 0; i < fe_n_basis(c, order); i++) {
+                fe_basis(c, order, c->x[order == 2 ? i : c->vertex[i]], n, dn);
+                for (int j = 0; j < fe_n_basis(c, order); j++)
+                    assert_true(fabs(n[j] - (i == j)) < 1e-15);
+            }
+    }
+}
+
+static void basis_sums_to_one_and_gradients_match_differences(void **state)
+{
+    const double h = 1e-6, at[3] = {0.21, 0.34, 0.17};
+
+    (void)state;
+    for (int t = 0; t < 4; t++)
+        for (int order = 1; order <= 2; order++) {
+            const fe_cell *c = fe_cell_of(types[t]);
+            double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], plus[FE_MAX_NODES], minus[FE_MAX_NODES],
+                x[FE_MAX_NODES][3], sum = 0;
+
+            fe_basis(c, order, at, n, dn);
+            for (int i = 0; i < fe_n_basis(c, order); i++)
+                sum += n[i];
+            assert_true(fabs(sum - 1) < 1e-14);
+            for (int k = 0; k < c->dim; k++) {
+                double p[3] = {at[0], at[1], at[2]};
+
+                p[k] += h;
+                fe_basis(c, order, p, plus, x);
+                p[k] -= 2 * h;
+                fe_basis(c, order, p, minus, x);
+                for (int i = 0; i < fe_n_basis(c, order); i++)
+                    assert_true(fabs((plus[i] - minus[i]) / (2 * h) - dn[i][k]) < 1e-9);
+            }
+        }
+}
+
+static double factorial(int n)
+{
+    return n < 2 ? 1 : n * factorial(n - 1);
+}
+
+/* Integral of x^a y^b z^c over the reference cell. */
+static double monomial(const fe_cell *c, int a, int b, int e)
+{
+    int power[3] = {a, b, e};
+    double v = 1;
+
+    if (c->simplex)
+        return factorial(a) * factorial(b) * factorial(e) / factorial(a + b + e + c->dim);
+    for (int k = 0; k < c->dim; k++)
+        v *= power[k] % 2 ? 0 : 2.0 / (power[k] + 1);
+    return v;
+}
+
+static void quadrature_is_exact_for_its_degree(void **state)
+{
+    error err;
+
+    (void)state;
+    for (int t = 0; t < 4; t++) {
+        const fe_cell *c = fe_cell_of(types[t]);
+        fe_rule r;
+
+        assert_int_equal(fe_rule_cell(c, 5, &r, &err), 0);
+        for (int a = 0; a <= 5; a++)
+            for (int b = 0; b <= 5; b++)
+                for (int e = 0; e <= (c->dim == 3 ? 5 : 0); e++) {
+                    double sum = 0;
+
+                    if (c->simplex && a + b + e > 5)
+                        continue;
+                    for (int q = 0; q < r.n; q++)
+                        sum += r.w[q] * pow(r.x[q][0], a) * pow(r.x[q][1], b) * pow(r.x[q][2], e);
+                    assert_true(fabs(sum - monomial(c, a, b, e)) < 1e-14);
+                }
+    }
+}
+
+/* Divergence theorem for F = x on the reference cell: the sum over facets of x.n is dim times the volume. */
+static void facet_rules_close_the_cell(void **state)
+{
+    error err;
+
+    (void)state;
+    for (int t = 0; t < 4; t++) {
+        const fe_cell *c = fe_cell_of(types[t]);
+        double flux = 0;
+
+        for (int f = 0; f < c->n_facet; f++) {
+            fe_rule r;
+            double s[2][3], n[3];
+            int orient;
+
+            assert_int_equal(fe_rule_facet(c, f, 5, &r, s, &orient, &err), 0);
+            if (c->dim == 2) {
+                n[0] = orient * s[0][1], n[1] = -orient * s[0][0], n[2] = 0;
+            } else {
+                n[0] = orient * (s[0][1] * s[1][2] - s[0][2] * s[1][1]);
+                n[1] = orient * (s[0][2] * s[1][0] - s[0][0] * s[1][2]);
+                n[2] = orient * (s[0][0] * s[1][1] - s[0][1] * s[1][0]);
+            }
+            for (int q = 0; q < r.n; q++)
+                for (int k = 0; k < c->dim; k++)
+                    flux += r.w[q] * r.x[q][k] * n[k];
+        }
+        assert_true(fabs(flux - c->dim * c->measure) < 1e-13);
+    }
+}
+
+static void facet_nodes_lie_on_the_facet(void **state)
+{
+    (void)state;
+    for (int t = 0; t < 4; t++) {
+        const fe_cell *c = fe_cell_of(types[t]);
+
+        for (int f = 0; f < c->n_facet; f++) {
+            int on = 0; /* nodes whose basis does not vanish at the middle of the facet's vertices */
+            double x[3] = {0}, n[FE_MAX_NODES], dn[FE_MAX_NODES][3];
+
+            for (int v = 0; v < c->facet_vertices; v++)
+                for (int k = 0; k < 3; k++)
+                    x[k] += c->x[c->facet[f][v]][k] / c->facet_vertices;
+            fe_basis(c, 2, x, n, dn);
+            for (int i = 0; i < c->n_node; i++) {
+                int listed = 0;
+
+                for (int j = 0; j < c->facet_nodes; j++)
+                    listed |= c->facet[f][j] == i;
+                on += listed;
+                assert_true(listed || fabs(n[i]) < 1e-15);
+            }
+            assert_int_equal(on, c->facet_nodes);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(basis_is_one_at_its_node_and_zero_at_others),
+        cmocka_unit_test(basis_sums_to_one_and_gradients_match_differences),
+        cmocka_unit_test(quadrature_is_exact_for_its_degree),
+        cmocka_unit_test(facet_rules_close_the_cell),
+        cmocka_unit_test(facet_nodes_lie_on_the_facet),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Numbering of unknowns, the matrix pattern, points to cells. */
+#include "space/locate.h"
+#include "space/space.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+static const pf_field velocity = {.name = "u", .shape = PF_VECTOR, .order = 2};
+static const pf_field pressure = {.name = "p", .shape = PF_SCALAR, .order = 1};
+static const pf_field single = {.name = "flow_rate", .shape = PF_SCALAR, .support = PF_ON_PROBLEM};
+
+static void make(mesh *m, space *s, int dim, int simplex, int with_single)
+{
+    mesh_box b = {.dim = dim, .simplex = simplex, .high = {1, 1, 1}, .n = {3, 2, 2}};
+    error err;
+
+    memset(s, 0, sizeof *s);
+    assert_int_equal(mesh_create_box(&b, m, &err), 0);
+    assert_int_equal(mesh_measure(m, &err), 0);
+    assert_int_equal(space_add_field(s, dim, &velocity, "test", &err), 0);
+    assert_int_equal(space_add_field(s, dim, &pressure, "test", &err), 0);
+    if (with_single)
+        assert_int_equal(space_add_field(s, dim, &single, "test", &err), 0);
+}
+
+static void unknowns_are_counted_and_interleaved_by_node(void **state)
+{
+    error err;
+    mesh m;
+    space s;
+
+    (void)state;
+    make(&m, &s, 2, 0, 0);
+    assert_int_equal(space_number(&s, &m, &err), 0);
+    assert_int_equal(s.n_dof, 2 * 7 * 5 + 4 * 3);
+    for (int64_t d = 1; d < s.n_dof; d++)
+        assert_true(s.dof_node[d] >= s.dof_node[d - 1]);
+    space_destroy(&s);
+    mesh_destroy(&m);
+}
+
+/* Entry (i, j) is in the pattern exactly if a cell has both unknowns. */
+static void pattern_matches_brute_force(void **state)
+{
+    error err;
+
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        mesh m;
+        space s;
+        static uint8_t couple[600][600];
+
+        make(&m, &s, 2 + k / 2, k % 2, k == 0);
+        assert_int_equal(space_number(&s, &m, &err), 0);
+        for (int64_t d = 0; d < s.n_dof; d += 7)
+            s.fixed[d] = 1;
+        assert_int_equal(space_constrain(&s, &err), 0);
+        assert_true(s.n_free < 600);
+        memset(couple, 0, sizeof couple);
+        for (int64_t e = 0; e < m.n_cell; e++)
+            for (int64_t i = 0; i < s.n_free; i++)
+                for (int64_t j = 0; j < s.n_free; j++) {
+                    int has_i = 0, has_j = 0;
+
+                    for (int c = 0; c < s.cell_carriers; c++) {
+                        has_i |= s.dof_node[s.dof_of[i]] == space_carrier(&s, e, c);
+                        has_j |= s.dof_node[s.dof_of[j]] == space_carrier(&s, e, c);
+                    }
+                    couple[i][j] |= has_i && has_j;
+                }
+        for (int64_t i = 0; i < s.n_free; i++) {
+            int64_t n = 0;
+
+            for (int64_t j = 0; j < s.n_free; j++)
+                n += couple[i][j];
+            assert_int_equal(n, s.row[i + 1] - s.row[i]);
+            for (int64_t e = s.row[i]; e < s.row[i + 1]; e++) {
+                assert_true(couple[i][s.col[e]]);
+                assert_true(e == s.row[i] || s.col[e] > s.col[e - 1]);
+            }
+        }
+        space_destroy(&s);
+        mesh_destroy(&m);
+    }
+}
+
+static void two_plugins_must_agree_on_a_field(void **state)
+{
+    const pf_field other = {.name = "u", .shape = PF_SCALAR, .order = 2};
+    error err;
+    mesh m;
+    space s;
+
+    (void)state;
+    make(&m, &s, 2, 0, 0);
+    assert_int_equal(space_add_field(&s, 2, &velocity, "second", &err), 0);
+    assert_int_equal(s.n_field, 2);
+    assert_int_equal(space_add_field(&s, 2, &other, "second", &err), ERR_PLUGIN);
+    assert_non_null(strstr(err.text, "second"));
+    space_destroy(&s);
+    mesh_destroy(&m);
+}
+
+static void points_are_found_and_quadratics_interpolated_exactly(void **state)
+{
+    error err;
+
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        mesh m;
+        space s;
+        double x[3000], at[3] = {0.313, 0.742, 0.391};
+        int dim = 2 + k / 2;
+        located l;
+        double v[3], g[9], value = at[0] * at[0] - 2 * at[0] * at[1] + 1;
+
+        make(&m, &s, dim, k % 2, 0);
+        assert_int_equal(space_number(&s, &m, &err), 0);
+        assert_true(s.n_dof < 3000);
+        for (int64_t i = 0; i < m.n_node; i++)
+            x[s.first[0][i]] = m.x[i * dim] * m.x[i * dim] - 2 * m.x[i * dim] * m.x[i * dim + 1] + 1;
+        l = locate_point(&m, at);
+        assert_true(l.cell >= 0);
+        locate_value(&s, &l, 0, x, v, g);
+        assert_true(fabs(v[0] - value) < 1e-13);
+        assert_true(fabs(g[0] - 2 * at[0] + 2 * at[1]) < 1e-12);
+        assert_true(fabs(g[1] + 2 * at[0]) < 1e-12);
+        at[0] = 1.5;
+        assert_true(locate_point(&m, at).cell < 0);
+        space_destroy(&s);
+        mesh_destroy(&m);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(unknowns_are_counted_and_interleaved_by_node),
+        cmocka_unit_test(pattern_matches_brute_force),
+        cmocka_unit_test(two_plugins_must_agree_on_a_field),
+        cmocka_unit_test(points_are_found_and_quadratics_interpolated_exactly),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Flows that lie in the finite element spaces come out exact. */
+#include "support/program.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static void solve(const char *arguments)
+{
+    assert_ran(plugflow("run %s --quiet --out %s/o", arguments, scratch()), 0, NULL);
+}
+
+static double last(const char *file, const char *column)
+{
+    char path[400];
+    double *v, x;
+    int n;
+
+    snprintf(path, sizeof path, "%s/o/%s", scratch(), file);
+    n = csv_column(path, column, &v);
+    x = n > 0 ? v[n - 1] : NAN;
+    free(v);
+    return x;
+}
+
+static void poiseuille_is_exact(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        solve(k ? "cases/channel.lua --set shape=triangles" : "cases/channel.lua");
+        assert_between(summary("o", "errors.u.l2"), 0, 1e-11);
+        assert_between(summary("o", "errors.p.l2"), 0, 1e-11);
+        /* wall shear: mu du/dy over a length of 3 */
+        assert_between(last("forces.csv", "bottom.fx"), 1.2 - 1e-10, 1.2 + 1e-10);
+        assert_between(last("forces.csv", "top.fx"), 1.2 - 1e-10, 1.2 + 1e-10);
+    }
+}
+
+static void couette_is_exact(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        solve(k ? "cases/couette.lua --set shape=triangles" : "cases/couette.lua");
+        assert_between(summary("o", "errors.u.l2"), 0, 1e-11);
+        assert_between(summary("o", "errors.p.l2"), 0, 1e-11);
+        assert_between(last("forces.csv", "bottom.fx"), 1 - 1e-11, 1 + 1e-11);
+        assert_between(last("forces.csv", "top.fx"), -1 - 1e-11, -1 + 1e-11);
+    }
+}
+
+/* A uniform flow through a periodic box, pushed by a body force: u = t f / rho, the same everywhere. */
+static void uniform_flow_through_a_periodic_box_is_exact(void **state)
+{
+    static const char *const shape[] = {"quads", "triangles", "hexes", "tets"};
+
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        int d3 = k >= 2;
+        const char *path;
+        char text[1500];
+
+        snprintf(text, sizeof text,
+                 "mesh { box = {{0,0%s},{2,1%s}}, cells = {3,2%s}, shape = \"%s\" }\n"
+                 "fluid { density = 2, viscosity = 0.3 }\n"
+                 "term \"continuity\" {}\nterm \"momentum\" { force = {4, 2%s} }\n"
+                 "boundary { periodic = {\"left\", \"right\"} }\nboundary { periodic = {\"bottom\", \"top\"} }\n%s"
+                 "initial { u = {1, -1%s} }\n"
+                 "exact { u = function(x, y%s, t) return 1 + 2 * t, -1 + t%s end, p = 0 }\n"
+                 "time { step = 0.1, stop = 0.5 }\n",
+                 d3 ? ",0" : "", d3 ? ",1" : "", d3 ? ",2" : "", shape[k], d3 ? ", 0" : "",
+                 d3 ? "boundary { periodic = {\"back\", \"front\"} }\n" : "", d3 ? ", 0" : "", d3 ? ", z" : "",
+                 d3 ? ", 0" : "");
+        path = put_file("uniform.lua", text);
+        solve(path);
+        assert_between(summary("o", "errors.u.l2"), 0, 1e-11);
+        assert_between(summary("o", "errors.u.h1"), 0, 1e-9);
+        assert_between(summary("o", "errors.p.l2"), 0, 1e-10);
+    }
+}
+
+/* Fluid at rest under gravity: the pressure carries it, whatever the direction. */
+static void fluid_at_rest_stays_at_rest(void **state)
+{
+    const char *path =
+        put_file("rest.lua", "mesh { box = {{0,0},{1,1}}, cells = {5,4} }\n"
+                             "fluid { density = 3, viscosity = 1e-3, gravity = {2, -9.81} }\n"
+                             "term \"continuity\" {}\nterm \"momentum\" {}\nboundary \"*\" { u = {0,0} }\n"
+                             "exact { u = {0,0}, p = function(x, y) return 3 * (2 * x - 9.81 * y) end }\n");
+
+    (void)state;
+    solve(path);
+    assert_between(summary("o", "errors.u.l2"), 0, 1e-12);
+    assert_between(summary("o", "errors.p.l2"), 0, 1e-12);
+}
+
+/* The lower half of a channel with a symmetry line is the lower half of the whole channel. */
+static void symmetry_replaces_half_a_channel(void **state)
+{
+    const char *path = put_file(
+        "half.lua", "mesh { box = {{0,0},{2,0.5}}, cells = {4,3} }\nfluid { density = 1, viscosity = 0.1 }\n"
+                    "term \"continuity\" {}\nterm \"momentum\" {}\n"
+                    "local function profile(x, y) return 4 * y * (1 - y), 0 end\n"
+                    "boundary \"left\" { u = profile }\nboundary \"right\" { u = profile }\n"
+                    "boundary \"bottom\" { u = {0,0} }\nboundary \"top\" { symmetry = true }\n"
+                    "exact { u = profile, p = function(x, y) return -0.8 * x end }\n");
+
+    (void)state;
+    solve(path);
+    assert_between(summary("o", "errors.u.l2"), 0, 1e-11);
+    assert_between(summary("o", "errors.p.l2"), 0, 1e-11);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(poiseuille_is_exact),
+        cmocka_unit_test(couette_is_exact),
+        cmocka_unit_test(uniform_flow_through_a_periodic_box_is_exact),
+        cmocka_unit_test(fluid_at_rest_stays_at_rest),
+        cmocka_unit_test(symmetry_replaces_half_a_channel),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
