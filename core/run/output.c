@@ -268,7 +268,7 @@ static double *reaction(const run *r, int boundary, int f, const double *about, 
             const double *res = r->residual + s->first[f][node];
             double d[3] = {0}, q[3] = {0};
 
-            if (seen[node]++)
+            if (seen[carrier]++)
                 continue;
             for (int a = 0; a < n_comp; a++) {
                 q[a] = -res[a];

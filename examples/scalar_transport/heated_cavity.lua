@@ -22,7 +22,7 @@ boundary "*"     { u = {0, 0} }             -- top and bottom: no line for T, so
 output { forces = {"left", "right"},
          lines = { middle = { from = {0, 0.5}, to = {1, 0.5}, points = 129 } } }
 
--- The heat that enters through a wall, over k (T_hot - T_cold), is the mean Nusselt number.
+-- left.heat is what the fluid gives to the wall; the reverse, over k (T_hot - T_cold) = 1, is the mean Nusselt number.
 results(function(r)
   return { nu = -r.last["left.heat"] }
 end)

@@ -109,11 +109,12 @@ static const pf_example flux_example[] = {{"q = 7", 2, NULL, (double[]){7}, (dou
 
 TERM(storage, PF_FLUID, PF_LINEAR, "\\rho c\\,\\partial_t T\\,s", "Bird, Stewart, Lightfoot (2002), 11.2", T_t, s,
      storage_example, WITH(storage_params));
-TERM(advection, PF_FLUID, 0, "\\rho c\\,(u\\cdot\\nabla T)\\,s", "Bird, Stewart, Lightfoot (2002), 11.2", u_grad_T,
-     s, advection_example, WITH(advection_params), .jacobian = advection_jacobian);
+TERM(advection, PF_FLUID, PF_CONTINUATION, "\\rho c\\,(u\\cdot\\nabla T)\\,s",
+     "Bird, Stewart, Lightfoot (2002), 11.2", u_grad_T, s, advection_example, WITH(advection_params),
+     .jacobian = advection_jacobian);
 TERM(diffusion, PF_FLUID, PF_LINEAR, "k\\,\\nabla T\\cdot\\nabla s", "Fourier's law; Carslaw, Jaeger (1959), 1.6",
      grad_T, grad_s, diffusion_example, WITH(diffusion_params));
-TERM(buoyancy, PF_FLUID, PF_LINEAR, "\\rho\\beta\\,(T-T_{ref})\\,g\\cdot v",
+TERM(buoyancy, PF_FLUID, PF_LINEAR | PF_CONTINUATION, "\\rho\\beta\\,(T-T_{ref})\\,g\\cdot v",
      "Gray, Giorgini, Int. J. Heat Mass Transfer 19 (1976) 545-551", temperature, v, buoyancy_example,
      WITH(buoyancy_params));
 TERM(heat_flux, PF_FACET, PF_LINEAR | PF_BY_BOUNDARY, "-q\\,s", "Carslaw, Jaeger (1959), 1.9", flux_data, s,

@@ -12,6 +12,7 @@ struct fluid {
     double density;    /* rho, kg/m^3            */
     double gravity[3]; /* g, m/s^2; not used     */
     int form;          /* index into forms; idem */
+    int order;         /* 3 to 5                 */
 };
 
 #include <plugflow/twin_real.h>
@@ -37,10 +38,11 @@ static pf_param params[] = {
     {"density", "kg/m^3", "mass per volume", PF_T_REAL, 0, offsetof(struct fluid, density), 1, 0, 1e30, NULL},
     {"gravity", "m/s^2", "acceleration", PF_T_VECTOR, 0, offsetof(struct fluid, gravity), 0, 0, 0, NULL},
     {"form", "1", "form of the term", PF_T_CHOICE, 0, offsetof(struct fluid, form), 0, 0, 0, forms},
+    {"order", "1", "order of the rule", PF_T_INT, PF_REQUIRED, offsetof(struct fluid, order), 0, 3, 5, NULL},
 };
 
 /* rho = 2, u = (1, 2), grad u = (3 4; 5 6), f = (1, 1) */
-static const double example_params[] = {2, 0, 0, 0}, example_in[] = {1, 2, 3, 4, 5, 6, 1, 1};
+static const double example_params[] = {2, 0, 0, 0, 4}, example_in[] = {1, 2, 3, 4, 5, 6, 1, 1};
 static double example_out[] = {21, 33};
 static pf_example examples[] = {{"one point", 2, example_params, example_in, example_out, 1e-15}};
 
@@ -58,7 +60,7 @@ static pf_term term = {
     .n_out = 1,
     .slot_size = sizeof(pf_slot),
     .param = params,
-    .n_param = 3,
+    .n_param = 4,
     .param_size = sizeof(pf_param),
     .params_bytes = sizeof(struct fluid),
     .example = examples,
@@ -118,6 +120,7 @@ static struct {
 #define TWIN(NAME)     ALTERATION(NAME, term.residual_c = NAME##_twin, term.jacobian = NULL)
 
 ALTERATION(sound, (void)0)
+RESIDUAL(needs_order)
 
 /* --- the description of the plugin --- */
 ALTERATION(wrong_abi_major, plugin.major = PF_ABI_MAJOR + 1)
@@ -225,6 +228,7 @@ static const struct alteration {
 #NAME, NAME                                                                                                \
     }
     A(sound),
+    A(needs_order),
     A(wrong_abi_major),
     A(needs_newer_minor),
     A(plugin_too_small),

@@ -77,6 +77,7 @@ static void answers_as_expected(void **state)
 static const struct CMUnitTest tests[] = {
     LOADS("sound_plugin_passes", "sound.so"),
     LOADS("plugin_of_a_later_minor_version_with_longer_structs_passes", "later_minor.so"),
+    LOADS("required_whole_number_is_tested_inside_its_range", "needs_order.so"),
     LOADS("frozen_header_1_0_loads", "frozen_1_0.so"),
 
     /* files */
@@ -144,10 +145,10 @@ static const struct CMUnitTest tests[] = {
     TOLD(unrepeatable, "output \"v\"[0] in 2D differs between two calls with the same values"),
     TOLD(neighbour, "output \"v\": a point's value depends on the other points of its batch"),
     TOLD(batch_maximum, "output \"v\": a point's value depends on the other points of its batch"),
-    TOLD(fails, "convection  returned -1 on random values: term broken.convection at x = (",
+    TOLD(fails, "convection  residual on random values returned -1: term broken.convection at x = (",
          ": density -4.5 is not possible"),
-    TOLD(fails_silently, "convection  returned 1 on random values: without saying why"),
-    TOLD(crash, "crashed (bad memory access) inside term broken.convection, residual",
+    TOLD(fails_silently, "convection  residual on random values returned 1: without saying why"),
+    TOLD(crash, "crashed (bad memory access) inside term broken.convection, residual on random values",
          "crash.so: the test ended by signal 11"),
 
     /* Jacobians */
