@@ -47,16 +47,21 @@ static int line_of_key(const case_file *c, const case_block *b, const char *key)
 void case_wrong(case_file *c, const case_block *at, const char *key, const char *fmt, ...)
 {
     char why[3000];
+    text line = {0};
     va_list ap;
 
     va_start(ap, fmt);
     vsnprintf(why, sizeof why, fmt, ap);
     va_end(ap);
     if (at)
-        text_add(&c->errors, "%s%s:%d: %s", c->n_error ? "\n" : "", at->file, line_of_key(c, at, key), why);
+        text_add(&line, "%s:%d: %s", at->file, line_of_key(c, at, key), why);
     else
-        text_add(&c->errors, "%s%s: %s", c->n_error ? "\n" : "", c->path, why);
-    c->n_error++;
+        text_add(&line, "%s: %s", c->path, why);
+    if (!c->errors.s || !line.s || !strstr(c->errors.s, line.s)) { /* two terms may ask for the same key */
+        text_add(&c->errors, "%s%s", c->n_error ? "\n" : "", line.s ? line.s : why);
+        c->n_error++;
+    }
+    text_free(&line);
 }
 
 int case_finish(case_file *c, error *err)

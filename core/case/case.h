@@ -91,6 +91,8 @@ int reader_strings(reader *r, const char *key, const char *doc, int most, const 
 /* Leaves the value of the key on the Lua stack if it is a table (then 1) -- pop it. */
 int reader_table(reader *r, const char *key, const char *doc);
 int reader_has(const reader *r, const char *key);
+/* 1 if a key stands there that looks like a slip for this one (reader_close will say so). */
+int reader_misspelt(const reader *r, const char *key);
 int reader_required(reader *r, const char *key, int status);
 /* Reports the keys that nobody asked for. */
 void reader_close(reader *r);

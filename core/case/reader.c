@@ -212,9 +212,30 @@ int reader_table(reader *r, const char *key, const char *doc)
     return 1;
 }
 
+int reader_misspelt(const reader *r, const char *key)
+{
+    lua_State *l = r->c->lua;
+    int found = 0;
+
+    if (!r->b || r->b->ref == LUA_NOREF)
+        return 0;
+    lua_rawgeti(l, LUA_REGISTRYINDEX, r->b->ref);
+    lua_pushnil(l);
+    while (lua_next(l, -2)) {
+        lua_pop(l, 1);
+        if (lua_type(l, -1) == LUA_TSTRING) {
+            const char *other = lua_tostring(l, -1);
+
+            found |= strcmp(other, key) != 0 && text_nearest(other, &key, 1) != NULL;
+        }
+    }
+    lua_pop(l, 1);
+    return found;
+}
+
 int reader_required(reader *r, const char *key, int status)
 {
-    if (status == 0) {
+    if (status == 0 && !reader_misspelt(r, key)) {
         const char *doc = "";
 
         for (int i = 0; i < r->n_key; i++)

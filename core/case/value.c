@@ -79,7 +79,7 @@ static int expected(case_file *c, const case_block *b, const char *key, int n)
 
     if (n == 1)
         case_wrong(c, b, key, "%s: \"%s\": expected a number or a function, got %s", b->kind, key,
-                   luaL_typename(l, -1));
+                   lua_type(l, -1) == LUA_TNUMBER ? "a number that is not finite" : luaL_typename(l, -1));
     else
         case_wrong(c, b, key,
                    "%s: \"%s\": expected %d components in braces (numbers, functions or free) or a function that "

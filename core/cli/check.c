@@ -13,6 +13,23 @@ static void print_parameters(const case_file *c)
                c->param[i].doc, "    default ", c->param[i].dflt);
 }
 
+/* Per field: on which boundaries it is prescribed. */
+static void print_conditions(const problem *p)
+{
+    for (int f = 0; f < p->space.n_field; f++) {
+        const space_field *g = &p->space.field[f];
+        int any = 0;
+
+        printf("  %s (%s, %s): prescribed on", g->name, g->doc, g->unit);
+        for (int i = 0; i < p->n_line; i++)
+            if (p->line[i].has_value[f] || (p->line[i].symmetry && g->n_comp > 1)) {
+                printf(" \"%s\"%s", p->line[i].name, p->line[i].has_value[f] ? "" : " (normal component)");
+                any = 1;
+            }
+        printf("%s\n", any ? "" : " no boundary");
+    }
+}
+
 static int check(const problem *p, const linear *l, int json)
 {
     double matrix = 16.0 * (double)p->space.row[p->space.n_free];
@@ -34,10 +51,9 @@ static int check(const problem *p, const linear *l, int json)
     printf("\n  terms:");
     for (int i = 0; i < p->n_use; i++)
         printf(" %s.%s", p->use[i].plugin->d.name, p->use[i].term->name);
-    printf("\n  fields:");
-    for (int f = 0; f < p->space.n_field; f++)
-        printf(" %s (%s, %s)", p->space.field[f].name, p->space.field[f].doc, p->space.field[f].unit);
-    printf("\n  unknowns: %lld, of which %lld are free; matrix: %lld entries, %.3g MB\n", (long long)p->space.n_dof,
+    printf("\n");
+    print_conditions(p);
+    printf("  unknowns: %lld, of which %lld are free; matrix: %lld entries, %.3g MB\n", (long long)p->space.n_dof,
            (long long)p->space.n_free, (long long)p->space.row[p->space.n_free], matrix / 1e6);
     printf("  factors (predicted): %.3g entries, %.3g MB, %.3g operations, about %.2g s each\n", l->stats.cost.fill,
            l->stats.cost.bytes / 1e6, l->stats.cost.flops, l->stats.cost.flops / 1e10);

@@ -31,7 +31,7 @@ static const char options_text[] =
     "  --set NAME=VALUE     a parameter of the case\n"
     "  --out DIR|FILE       folder of the results (run), file of the picture (picture)\n"
     "  --threads N          threads (default: all cores)\n"
-    "  --plugin FILE.so     load this plugin, too\n"
+    "  --plugin FILE.so     load this plugin, too (may be repeated; PLUGFLOW_PLUGIN_PATH adds folders)\n"
     "  --memory GB          stop if the factors need more (default: what is free)\n"
     "  --json               machine-readable summary on stdout (run, check)\n"
     "  --quiet              no talk on stderr\n"
@@ -188,6 +188,11 @@ static int dispatch(int argc, char **argv, error *err)
 
     if (!command)
         return err->code;
+    for (int i = 2; i < argc; i++)
+        if (strcmp(argv[i], "--help") == 0) {
+            usage(stdout);
+            return 0;
+        }
     TRY(parse(argc, argv, &c, err));
     if (c.n_operand < command->n_min || c.n_operand > command->n_max)
         return error_set(err, ERR_USAGE, "usage: plugflow %s %s [options]", command->name, command->operands);

@@ -46,13 +46,16 @@ int cli_plugins(const cli *o, error *err)
     return 0;
 }
 
-static void print_slots(const char *title, const pf_slot *s, uint32_t n)
+static void print_slots(const char *title, const pf_slot *s, uint32_t n, int by_boundary)
 {
     static const char *const shape[] = {"", "scalar", "vector", "tensor", "spin"};
 
     for (uint32_t i = 0; i < n; i++)
-        printf("      %-7s %-10s %s%s%s, %s\n", i ? "" : title, s[i].name, term_eval_name(s[i].eval),
+        printf("      %-7s %-22s %s%s%s, %s\n", i ? "" : title, s[i].name, term_eval_name(s[i].eval),
                s[i].field ? " of " : "", s[i].field ? s[i].field : "", shape[s[i].shape]);
+    for (uint32_t i = 0; by_boundary && i < n; i++)
+        if (s[i].eval == PF_DATA)
+            printf("      in a case: boundary \"...\" { %s = ... }\n", s[i].name);
 }
 
 static void print_params(const pf_term *t)
@@ -60,7 +63,7 @@ static void print_params(const pf_term *t)
     for (uint32_t i = 0; i < t->n_param; i++) {
         const pf_param *p = &t->param[i];
 
-        printf("      %-7s %-10s %s, %s", i ? "" : "key", p->name, p->doc, p->unit);
+        printf("      %-7s %-22s %s, %s", i ? "" : "key", p->name, p->doc, p->unit);
         if (p->flags & PF_REQUIRED)
             printf("; required");
         else if (p->type == PF_T_CHOICE)
@@ -77,16 +80,17 @@ static void print_params(const pf_term *t)
 
 static void print_term(const term_plugin *p, const pf_term *t)
 {
-    printf("  %s.%s%s\n      weak    %s\n      source  %s\n      points  %s; Jacobian %s\n", p->d.name, t->name,
+    printf("  %s.%s%s\n      weak    %s\n      source  %s\n      points  %s; Jacobian %s%s%s\n", p->d.name, t->name,
            t->flags & PF_OPTIONAL ? " (only if its own line switches it on)" : "", t->doc, t->cite,
            t->where == PF_FACET   ? "boundary facets"
            : t->where == PF_FLUID ? "fluid"
                                   : "all cells",
            t->jacobian     ? "by hand"
            : t->residual_c ? "by complex step"
-                           : "by differences");
-    print_slots("in", t->in, t->n_in);
-    print_slots("out", t->out, t->n_out);
+                           : "by differences",
+           t->flags & PF_LINEAR ? "; linear" : "", t->flags & PF_CONTINUATION ? "; faded in by continuation" : "");
+    print_slots("in", t->in, t->n_in, (t->flags & PF_BY_BOUNDARY) != 0);
+    print_slots("out", t->out, t->n_out, 0);
     print_params(t);
 }
 
@@ -94,8 +98,10 @@ static void print_plugin(const term_plugin *p, const char *only)
 {
     printf("%s %s: %s (%s)\n", p->d.name, p->d.version, p->d.doc ? p->d.doc : "", p->d.license);
     for (uint32_t i = 0; i < p->d.n_field; i++)
-        printf("  field %s: %s, %s, %s of order %u\n", p->d.field[i].name, p->d.field[i].doc, p->d.field[i].unit,
-               p->d.field[i].shape == PF_VECTOR ? "vector" : "scalar", p->d.field[i].order);
+        printf("  field %s: %s, %s, %s of order %u%s%s\n", p->d.field[i].name, p->d.field[i].doc,
+               p->d.field[i].unit, p->d.field[i].shape == PF_VECTOR ? "vector" : "scalar", p->d.field[i].order,
+               p->d.field[i].reaction ? "; reaction on boundaries: " : "",
+               p->d.field[i].reaction ? p->d.field[i].reaction : "");
     for (uint32_t i = 0; i < p->d.n_term; i++)
         if (!only || strcmp(only, p->term[i].name) == 0)
             print_term(p, &p->term[i]);
@@ -114,6 +120,12 @@ int cli_describe(const cli *o, error *err)
         for (int i = 0; i < r.n_file; i++)
             if (!r.file[i].refused && r.file[i].plugin.path)
                 print_plugin(&r.file[i].plugin, NULL);
+    } else if (strlen(o->operand[0]) > 3 && strcmp(o->operand[0] + strlen(o->operand[0]) - 3, ".so") == 0) {
+        term_file *f;
+
+        TRY(registry_load(&r, o->operand[0], &f, err));
+        if (f->plugin.path)
+            print_plugin(&f->plugin, NULL);
     } else {
         dot = strchr(o->operand[0], '.');
         snprintf(name, sizeof name, "%.*s", dot ? (int)(dot - o->operand[0]) : 127, o->operand[0]);

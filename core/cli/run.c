@@ -98,6 +98,7 @@ int cli_run(const cli *o, error *err)
     const char *term = getenv("TERM");
     run_result result = {0};
     char dir[4096];
+    size_t printed = 0;
     int status;
 
     if (!k)
@@ -112,9 +113,12 @@ int cli_run(const cli *o, error *err)
         if (!o->quiet)
             introduce(&k->p);
         t.start = solve_seconds();
+        printed = k->c.printed.n;
         status = run_problem(&k->p, dir, &talk, &cli_stop, &result, err);
         if (t.line_open)
             fputc('\n', stderr);
+        if (k->c.printed.n > printed && !o->quiet)
+            fputs(k->c.printed.s + printed, stderr);
         if (!status && o->json)
             print_file(dir, "summary.json");
         if (!status && !o->quiet && !o->json)

@@ -6,6 +6,7 @@
 
 #include "io/file.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -106,15 +107,17 @@ int vtu_write(const char *path, const space *s, const int *fields, int n_field, 
         for (int i = 0; i < c->n_node; i++)
             connectivity[e * c->n_node + i] = m->cell[e * c->n_node + c->vtk[i]];
     }
-    text_add(
-        &head,
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-        "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
-        "NumberOfTuples=\"1\" format=\"ascii\">");
-    text_number(&head, t);
-    text_add(&head,
-             "</DataArray>\n</FieldData>\n<Piece NumberOfPoints=\"%lld\" NumberOfCells=\"%lld\">\n<Points>\n",
-             (long long)m->n_node, (long long)m->n_cell);
+    text_add(&head, "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+                    "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n");
+    if (isfinite(t)) {
+        text_add(
+            &head,
+            "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">");
+        text_number(&head, t);
+        text_add(&head, "</DataArray>\n</FieldData>\n");
+    }
+    text_add(&head, "<Piece NumberOfPoints=\"%lld\" NumberOfCells=\"%lld\">\n<Points>\n", (long long)m->n_node,
+             (long long)m->n_cell);
     add_array(&head, &b[nb++], "Float64", "Points", "m", 3, points, (uint64_t)m->n_node * 24, &offset);
     text_add(&head, "</Points>\n<Cells>\n");
     add_array(&head, &b[nb++], "Int32", "connectivity", NULL, 1, connectivity,

@@ -6,7 +6,7 @@
 
 #include "space/space.h"
 
-/* Writes fields[] (order 1 ones are interpolated to all nodes, exactly) at time t. */
+/* Writes fields[] (order 1 ones are interpolated to all nodes, exactly) at time t; NAN: a steady state. */
 int vtu_write(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
               error *err);
 /* The list of files with their times. */

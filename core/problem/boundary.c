@@ -39,6 +39,29 @@ static int read_fluxes(problem *p, reader *r, boundary_line *l)
     return any;
 }
 
+/* A flux of a field that is prescribed as a whole, or anything beside natural = true, cannot be meant. */
+static void check_conflicts(problem *p, const case_block *b, const char *what, const boundary_line *l)
+{
+    for (int i = 0; i < l->n_flux; i++) {
+        const pf_term *t = l->flux[i]->term;
+        int f = space_find_field(&p->space, t->out[0].field), free = 0;
+
+        for (int k = 0; f >= 0 && k < p->space.field[f].n_comp; k++)
+            free |= l->value[f].free[k];
+        for (uint32_t k = 0; f >= 0 && l->has_value[f] && !free && k < t->n_in; k++)
+            if (t->in[k].eval == PF_DATA)
+                case_wrong(p->c, b, t->in[k].name,
+                           "%s: \"%s\" and \"%s\" are both given; where %s is prescribed, %s has no effect", what,
+                           p->space.field[f].name, t->in[k].name, p->space.field[f].name, t->in[k].name);
+    }
+    for (int f = 0; l->natural && f < p->space.n_field; f++)
+        if (l->has_value[f] || l->n_flux || l->symmetry) {
+            case_wrong(p->c, b, "natural", "%s: natural = true says that nothing is prescribed, but something is",
+                       what);
+            break;
+        }
+}
+
 static void read_line(problem *p, const case_block *b, boundary_line *l)
 {
     char *what = arena_alloc(&p->memory, (b->name ? strlen(b->name) : 0) + 16, 1);
@@ -77,6 +100,7 @@ static void read_line(problem *p, const case_block *b, boundary_line *l)
     }
     any |= read_fluxes(p, &r, l);
     reader_close(&r);
+    check_conflicts(p, b, what, l);
     if (!any && !reader_has(&r, "periodic"))
         case_wrong(p->c, b, NULL, "%s gives no condition; natural = true says that nothing is prescribed", what);
 }

@@ -52,14 +52,15 @@ static void read_params(problem *p, reader *own, reader *fluid, term_use *u)
 {
     for (uint32_t i = 0; i < u->term->n_param; i++) {
         const pf_param *q = &u->term->param[i];
-        int status = read_param(own, q, p->dim, u->params);
+        int status = 0;
 
-        if (q->flags & PF_SHARED) {
-            int shared = reader_has(own, q->name) ? 0 : read_param(fluid, q, p->dim, u->params);
-
-            status = status ? status : shared;
-        }
+        if (q->flags & PF_SHARED)
+            status = read_param(fluid, q, p->dim, u->params);
+        if (reader_has(own, q->name) || !status) /* the term's own line has the last word */
+            status = read_param(own, q, p->dim, u->params);
         if (status == 0 && (q->flags & PF_REQUIRED)) {
+            if ((q->flags & PF_SHARED) && (reader_misspelt(fluid, q->name) || reader_misspelt(own, q->name)))
+                continue;
             if (q->flags & PF_SHARED)
                 case_wrong(p->c, fluid->b ? fluid->b : own->b, NULL,
                            "%s needs \"%s\" (%s, %s): give it in fluid { %s = ... }", own->what, q->name, q->doc,

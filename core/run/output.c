@@ -266,6 +266,7 @@ static double *reaction(const run *r, int boundary, int f, const double *about, 
             int32_t node =
                 m->cell[(int64_t)m->facet[k].cell * m->type->n_node + m->type->facet[m->facet[k].local][i]];
             const double *res = r->residual + s->first[f][node];
+            int32_t carrier = s->dof_node[s->first[f][node]]; /* periodic ends are one node */
             double d[3] = {0}, q[3] = {0};
 
             if (seen[carrier]++)
@@ -335,7 +336,8 @@ int output_fields(run *r, double t, error *err)
     }
     snprintf(name, sizeof name, "fields_%05d.vtu", r->n_file);
     snprintf(path, sizeof path, "%s/%s", r->dir, name);
-    TRY(vtu_write(path, &r->p->space, r->p->output.field, r->p->output.n_field, r->p->x, t, err));
+    TRY(vtu_write(path, &r->p->space, r->p->output.field, r->p->output.n_field, r->p->x,
+                  r->p->time.unsteady ? t : NAN, err));
     r->file[r->n_file] = strdup(name);
     if (!r->file[r->n_file])
         return error_memory(err, "list of files", 0);

@@ -29,6 +29,33 @@ static void push_table(lua_State *l, const table *t, int series, int last)
     }
 }
 
+/* A column that is not there: an error that lists those that are. */
+static int no_column(lua_State *l)
+{
+    text t = {0};
+
+    lua_pushnil(l);
+    while (lua_next(l, 1)) {
+        lua_pop(l, 1);
+        text_add(&t, "%s%s", t.n ? ", " : "", lua_tostring(l, -1));
+    }
+    lua_pushfstring(l, "results: there is no column \"%s\"; there are: %s", luaL_tolstring(l, 2, NULL),
+                    t.s ? t.s : "none");
+    text_free(&t);
+    luaL_where(l, 1);
+    lua_insert(l, -2);
+    lua_concat(l, 2);
+    return lua_error(l);
+}
+
+static void guard_columns(lua_State *l)
+{
+    lua_newtable(l);
+    lua_pushcfunction(l, no_column);
+    lua_setfield(l, -2, "__index");
+    lua_setmetatable(l, -2);
+}
+
 static void push_errors(lua_State *l, const run_result *q)
 {
     lua_newtable(l);
@@ -59,7 +86,9 @@ static void push_argument(lua_State *l, const run *r)
     lua_newtable(l);
     push_table(l, &r->forces, lua_gettop(l) - 1, lua_gettop(l));
     push_table(l, &r->probes, lua_gettop(l) - 1, lua_gettop(l));
+    guard_columns(l);
     lua_setfield(l, -3, "last");
+    guard_columns(l);
     lua_setfield(l, -2, "series");
     push_errors(l, r->result);
     lua_setfield(l, -2, "errors");

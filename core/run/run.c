@@ -102,11 +102,11 @@ static int steady(run *r, error *err)
     r->result->steps = 1;
     TRY(log_solve(r, 0, 0, &report, err));
     if (!report.converged)
-        return error_set(
-            err, ERR_CONVERGE,
-            "no steady state found: %s; refine the mesh, start from a solution at a smaller Reynolds number, or "
-            "make the case unsteady with time {}",
-            report.why);
+        return error_set(err, ERR_CONVERGE,
+                         "no steady state found: %s; refine the mesh, start from an easier problem (solve { "
+                         "continuation = { viscosity = "
+                         "... } }), or make the case unsteady with time {}",
+                         report.why);
     say(r, "  converged in %d iterations, observed order %.1f, |r| / |r_before|^2 = %.2g", report.iterations,
         report.order, report.ratio);
     gauge_zero_mean(&p->system, p->x);

@@ -5,11 +5,11 @@
  * Compiled twice (twin_real.h, twin_complex.h); T is the number type, not the temperature. */
 
 /* rho c dT/dt s */
-static int F(storage)(const pf_batch *b, const T *const *in, T *const *out)
+static int F(storage)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct heat *h = b->params;
-    const T *restrict T_t = in[0];
-    T *restrict s = out[0];
+    const NUM *restrict T_t = in[0];
+    NUM *restrict s = out[0];
 
     PF_LANES_OF (b, i)
         s[i] = h->density * h->heat_capacity * T_t[i];
@@ -17,11 +17,11 @@ static int F(storage)(const pf_batch *b, const T *const *in, T *const *out)
 }
 
 /* rho c (u . grad T) s */
-static int F(advection)(const pf_batch *b, const T *const *in, T *const *out)
+static int F(advection)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct heat *h = b->params;
-    const T *restrict u = in[0], *restrict grad_T = in[1];
-    T *restrict s = out[0];
+    const NUM *restrict u = in[0], *restrict grad_T = in[1];
+    NUM *restrict s = out[0];
 
     PF_LANES_OF (b, i)
         s[i] = 0;
@@ -32,11 +32,11 @@ static int F(advection)(const pf_batch *b, const T *const *in, T *const *out)
 }
 
 /* k grad T . grad s */
-static int F(diffusion)(const pf_batch *b, const T *const *in, T *const *out)
+static int F(diffusion)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct heat *h = b->params;
-    const T *restrict grad_T = in[0];
-    T *restrict grad_s = out[0];
+    const NUM *restrict grad_T = in[0];
+    NUM *restrict grad_s = out[0];
 
     for (uint32_t k = 0; k < b->dim; k++)
         PF_LANES_OF (b, i)
@@ -45,11 +45,11 @@ static int F(diffusion)(const pf_batch *b, const T *const *in, T *const *out)
 }
 
 /* rho beta (T - T_ref) g . v, what remains of -rho(T) g . v beside the -rho g . v of momentum */
-static int F(buoyancy)(const pf_batch *b, const T *const *in, T *const *out)
+static int F(buoyancy)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct heat *h = b->params;
-    const T *restrict temperature = in[0];
-    T *restrict v = out[0];
+    const NUM *restrict temperature = in[0];
+    NUM *restrict v = out[0];
 
     for (uint32_t a = 0; a < b->dim; a++)
         PF_LANES_OF (b, i)
@@ -58,10 +58,10 @@ static int F(buoyancy)(const pf_batch *b, const T *const *in, T *const *out)
 }
 
 /* -q s on the boundary, q > 0 into the fluid */
-static int F(heat_flux)(const pf_batch *b, const T *const *in, T *const *out)
+static int F(heat_flux)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const T *restrict q = in[0];
-    T *restrict s = out[0];
+    const NUM *restrict q = in[0];
+    NUM *restrict s = out[0];
 
     PF_LANES_OF (b, i)
         s[i] = -q[i];

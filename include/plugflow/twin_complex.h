@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * twin_complex.h -- see twin_real.h. */
-#undef T
+#undef NUM
 #undef F
-#define T       pf_complex
+#define NUM       pf_complex
 #define F(name) name##_complex

@@ -9,13 +9,13 @@
  *     #include <plugflow/twin_complex.h>
  *     #include "equations.h"
  *
- * equations.h defines   static int F(name)(const pf_batch *b, const T *const *in, T *const *out)
+ * equations.h defines   static int F(name)(const pf_batch *b, const NUM *const *in, NUM *const *out)
  * and so makes name_real and name_complex. */
 #ifndef PF_LANES_OF
 #define PF_LANES_OF(b, i) for (uint32_t i = 0; i < (b)->ld; i++)
 #define LD                ((b)->ld)
 #endif
-#undef T
+#undef NUM
 #undef F
-#define T       double
+#define NUM       double
 #define F(name) name##_real

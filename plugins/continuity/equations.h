@@ -3,10 +3,10 @@
  * Continuity (appendix A.1-A.6): what happens at one point. */
 
 /* q div u */
-static int F(divergence)(const pf_batch *b, const T *const *in, T *const *out)
+static int F(divergence)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const T *restrict div_u = in[0];
-    T *restrict q = out[0];
+    const NUM *restrict div_u = in[0];
+    NUM *restrict q = out[0];
 
     PF_LANES_OF (b, i)
         q[i] = div_u[i];

@@ -2,15 +2,15 @@
  *
  * Momentum (appendix A.7-A.15): what happens at one point.
  *
- * Compiled twice (twin_real.h, twin_complex.h), with T = double and T = pf_complex.  Arrays are [component][lane];
- * a plain loop over lanes vectorises. */
+ * Compiled twice (twin_real.h, twin_complex.h), with NUM = double and NUM = pf_complex.  Arrays are
+ * [component][lane]; a plain loop over lanes vectorises. */
 
 /* rho du/dt . v */
-static int F(inertia)(const pf_batch *b, const T *const *in, T *const *out)
+static int F(inertia)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct fluid *f = b->params;
-    const T *restrict u_t = in[0];
-    T *restrict v = out[0];
+    const NUM *restrict u_t = in[0];
+    NUM *restrict v = out[0];
 
     for (uint32_t a = 0; a < b->dim; a++)
         PF_LANES_OF (b, i)
@@ -19,11 +19,11 @@ static int F(inertia)(const pf_batch *b, const T *const *in, T *const *out)
 }
 
 /* rho (u . grad) u . v */
-static int F(convection)(const pf_batch *b, const T *const *in, T *const *out)
+static int F(convection)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct fluid *f = b->params;
-    const T *restrict u = in[0], *restrict grad_u = in[1];
-    T *restrict v = out[0];
+    const NUM *restrict u = in[0], *restrict grad_u = in[1];
+    NUM *restrict v = out[0];
     const uint32_t d = b->dim;
 
     for (uint32_t a = 0; a < d; a++) {
@@ -37,11 +37,11 @@ static int F(convection)(const pf_batch *b, const T *const *in, T *const *out)
 }
 
 /* (2 mu D(u) - p I) : grad v */
-static int F(stress)(const pf_batch *b, const T *const *in, T *const *out)
+static int F(stress)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct fluid *f = b->params;
-    const T *restrict grad_u = in[0], *restrict p = in[1];
-    T *restrict grad_v = out[0];
+    const NUM *restrict grad_u = in[0], *restrict p = in[1];
+    NUM *restrict grad_v = out[0];
     const uint32_t d = b->dim;
 
     for (uint32_t a = 0; a < d; a++)
@@ -54,11 +54,11 @@ static int F(stress)(const pf_batch *b, const T *const *in, T *const *out)
 }
 
 /* -(rho g + f) . v */
-static int F(body_force)(const pf_batch *b, const T *const *in, T *const *out)
+static int F(body_force)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct fluid *f = b->params;
-    const T *restrict force = in[0];
-    T *restrict v = out[0];
+    const NUM *restrict force = in[0];
+    NUM *restrict v = out[0];
 
     for (uint32_t a = 0; a < b->dim; a++)
         PF_LANES_OF (b, i)
@@ -67,10 +67,10 @@ static int F(body_force)(const pf_batch *b, const T *const *in, T *const *out)
 }
 
 /* -t . v on the boundary */
-static int F(traction)(const pf_batch *b, const T *const *in, T *const *out)
+static int F(traction)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const T *restrict traction = in[0];
-    T *restrict v = out[0];
+    const NUM *restrict traction = in[0];
+    NUM *restrict v = out[0];
 
     for (uint32_t a = 0; a < b->dim; a++)
         PF_LANES_OF (b, i)

@@ -3,11 +3,11 @@
  * What the sound description in broken.c computes, for real and for complex numbers. */
 
 /* (rho (u . grad) u - f) . v */
-static int F(convection)(const pf_batch *b, const T *const *in, T *const *out)
+static int F(convection)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct fluid *fluid = b->params;
-    const T *restrict u = in[0], *restrict grad_u = in[1], *restrict f = in[2];
-    T *restrict v = out[0];
+    const NUM *restrict u = in[0], *restrict grad_u = in[1], *restrict f = in[2];
+    NUM *restrict v = out[0];
     const uint32_t d = b->dim;
 
     for (uint32_t a = 0; a < d; a++) {

@@ -19,11 +19,11 @@
 #define WALLS "boundary \"*\" { u = {0, 0} }\n"
 
 /* Runs a case given as text; it must end with the code, print all texts, and leave no results. */
-#define assert_case(expected, text, ...)                                                                               \
+#define assert_case(expected, text, ...)                                                                           \
     do {                                                                                                           \
         const char *path_ = put_file("bad.lua", text);                                                             \
                                                                                                                    \
-        assert_ran(plugflow("run %s --out %s/bad", path_, scratch()), expected, __VA_ARGS__);                          \
+        assert_ran(plugflow("run %s --out %s/bad", path_, scratch()), expected, __VA_ARGS__);                      \
         assert_true(shell("test -e %s/bad/summary.json", scratch()).code != 0);                                    \
     } while (0)
 
