@@ -39,9 +39,11 @@ int cli_plugins(const cli *o, error *err)
     printf("\nlooked in:\n");
     for (int i = 0; i < r.n_dir; i++)
         printf("  %s\n", r.dir[i]);
+    if (refused)
+        printf("refused:\n");
     for (int i = 0; i < r.n_file; i++)
         if (r.file[i].refused)
-            printf("%s  %s\n", refused-- > 0 && i >= 0 ? "refused:\n" : "", r.file[i].refused);
+            printf("  %s\n", r.file[i].refused);
     registry_destroy(&r);
     return 0;
 }
@@ -94,8 +96,15 @@ static void print_term(const term_plugin *p, const pf_term *t)
     print_params(t);
 }
 
-static void print_plugin(const term_plugin *p, const char *only)
+static int print_plugin(const term_plugin *p, const char *only, error *err)
 {
+    int found = !only;
+
+    for (uint32_t i = 0; only && i < p->d.n_term; i++)
+        found |= strcmp(only, p->term[i].name) == 0;
+    if (!found)
+        return error_set(err, ERR_USAGE, "plugin \"%s\" has no term \"%s\"; plugflow describe %s lists its terms",
+                         p->d.name, only, p->d.name);
     printf("%s %s: %s (%s)\n", p->d.name, p->d.version, p->d.doc ? p->d.doc : "", p->d.license);
     for (uint32_t i = 0; i < p->d.n_field; i++)
         printf("  field %s: %s, %s, %s of order %u%s%s\n", p->d.field[i].name, p->d.field[i].doc,
@@ -105,6 +114,7 @@ static void print_plugin(const term_plugin *p, const char *only)
     for (uint32_t i = 0; i < p->d.n_term; i++)
         if (!only || strcmp(only, p->term[i].name) == 0)
             print_term(p, &p->term[i]);
+    return 0;
 }
 
 int cli_describe(const cli *o, error *err)
@@ -119,18 +129,18 @@ int cli_describe(const cli *o, error *err)
         TRY(registry_scan(&r, err));
         for (int i = 0; i < r.n_file; i++)
             if (!r.file[i].refused && r.file[i].plugin.path)
-                print_plugin(&r.file[i].plugin, NULL);
+                TRY(print_plugin(&r.file[i].plugin, NULL, err));
     } else if (strlen(o->operand[0]) > 3 && strcmp(o->operand[0] + strlen(o->operand[0]) - 3, ".so") == 0) {
         term_file *f;
 
         TRY(registry_load(&r, o->operand[0], &f, err));
         if (f->plugin.path)
-            print_plugin(&f->plugin, NULL);
+            TRY(print_plugin(&f->plugin, NULL, err));
     } else {
         dot = strchr(o->operand[0], '.');
         snprintf(name, sizeof name, "%.*s", dot ? (int)(dot - o->operand[0]) : 127, o->operand[0]);
         TRY(registry_equation(&r, name, &p, err));
-        print_plugin(p, dot ? dot + 1 : NULL);
+        TRY(print_plugin(p, dot ? dot + 1 : NULL, err));
     }
     registry_destroy(&r);
     return 0;

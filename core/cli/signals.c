@@ -55,15 +55,17 @@ static void on_crash(int number)
         put(term_now.term);
         put(", ");
         put(term_now.phase);
-        put(", cells from ");
-        *--d = 0;
-        do
-            *--d = (char)('0' + n % 10);
-        while ((n /= 10) > 0);
-        put(d);
-        put("; plugflow test ");
-        put(term_now.plugin);
-        put(" runs it in isolation");
+        if (n >= 0) {
+            put(", cells from ");
+            *--d = 0;
+            do
+                *--d = (char)('0' + n % 10);
+            while ((n /= 10) > 0);
+            put(d);
+            put("; plugflow test ");
+            put(term_now.plugin);
+            put(" runs it in isolation");
+        }
     }
     put("\n");
     signal(number, SIG_DFL);

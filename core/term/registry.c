@@ -187,7 +187,7 @@ int registry_load(registry *r, const char *path, term_file **out, error *err)
     f->path = arena_strdup(&r->memory, real);
     if (!f->path)
         return error_memory(err, "plugin", 0);
-    term_now = (term_breadcrumb){f->path, "entry", "while it is loaded", 0};
+    term_now = (term_breadcrumb){f->path, "entry", "while it is loaded", -1};
     status = load_file(r, f, err);
     term_now = (term_breadcrumb){0};
     if (status)

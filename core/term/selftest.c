@@ -153,7 +153,7 @@ static int call(bench *k, double *const *out, const char *what)
     int status;
 
     k->report.status = 0;
-    term_now = (term_breadcrumb){k->p->d.name, k->t->name, what, 0};
+    term_now = (term_breadcrumb){k->p->d.name, k->t->name, what, -1};
     status = k->t->residual(&k->b, (const double *const *)k->in, out);
     term_now = (term_breadcrumb){0};
     if (status)
@@ -332,7 +332,7 @@ static int derive(bench *k, enum term_derivative how, double **jac, const char *
             given[o * t->n_in + i] = term_is_unknown(&t->in[i]) ? jac[o * t->n_in + i] : NULL;
         }
     k->report.status = 0;
-    term_now = (term_breadcrumb){k->p->d.name, t->name, what, 0};
+    term_now = (term_breadcrumb){k->p->d.name, t->name, what, -1};
     status = term_jacobian(t, how, &k->b, (const double *const *)k->in, given, k->room);
     term_now = (term_breadcrumb){0};
     if (status)
@@ -360,7 +360,7 @@ static void test_twin(bench *k)
     }
     if (!call(k, k->out, "residual on random values"))
         return;
-    term_now = (term_breadcrumb){k->p->d.name, k->t->name, "complex twin", 0};
+    term_now = (term_breadcrumb){k->p->d.name, k->t->name, "complex twin", -1};
     status = k->t->residual_c(&k->b, in, w);
     term_now = (term_breadcrumb){0};
     if (status) {

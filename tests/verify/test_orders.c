@@ -103,8 +103,8 @@ static void taylor_green_has_order_three_in_space_and_two_in_time(void **state)
 {
     errors a = solve("cases/taylor_green.lua --set n=16 --set dt=0.005 --set stop=0.1");
     errors b = solve("cases/taylor_green.lua --set n=32 --set dt=0.005 --set stop=0.1");
-    errors c = solve("cases/taylor_green.lua --set n=24 --set nu=1 --set dt=0.25 --set stop=1");
-    errors d = solve("cases/taylor_green.lua --set n=24 --set nu=1 --set dt=0.125 --set stop=1");
+    errors c = solve("cases/taylor_green.lua --set n=32 --set nu=1 --set dt=0.05 --set stop=0.5");
+    errors d = solve("cases/taylor_green.lua --set n=32 --set nu=1 --set dt=0.025 --set stop=0.5");
 
     (void)state;
     print_message("# Taylor-Green: order in h %.2f (u), %.2f (p); in dt %.2f (u)\n", log2(a.u / b.u),

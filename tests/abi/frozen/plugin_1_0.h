@@ -82,7 +82,10 @@ enum pf_support {
     PF_ON_PARTICLE = 2 /* one value (or vector) per particle                           */
 };
 
-/* A field.  Several plugins may declare the same one, in the same way. */
+/* A field.  Several plugins may declare the same one; shape, order and support must agree, texts are
+ * those of the first.  A reaction is what the fluid side gives to a boundary where the field is
+ * prescribed: column "<boundary>.<reaction>" of forces.csv (for a vector ".fx", ".fy", ... by the
+ * first letter of its reaction). */
 typedef struct pf_field {
     const char *name;          /* "u"; the key in boundary{}, initial{}, output{}    */
     const char *unit, *doc;    /* "m/s", "velocity"                                  */
@@ -106,7 +109,8 @@ enum pf_param_flag {
     PF_SHARED = 2 /* taken from the case's fluid{} block unless the term's own line gives it */
 };
 
-/* One key of the term's line in a case file. */
+/* One key of the line  term "plugin" { key = ... }.  A plugin's terms may list the same key, each for its
+ * own struct; the line serves all of them. */
 typedef struct pf_param {
     const char *name, *unit, *doc; /* "viscosity", "Pa s", "dynamic viscosity"         */
     uint32_t type, flags, offset;  /* offset into the term's own params struct         */
@@ -144,8 +148,12 @@ typedef struct pf_example {
 enum pf_term_flag {
     PF_LINEAR = 1,       /* the residual is linear (affine) in the unknown slots; tested       */
     PF_OPTIONAL = 2,     /* off unless its own line, term "plugin.name" {}, switches it on      */
-    PF_CONTINUATION = 4, /* may be faded in from 0 to 1 when a steady case does not converge    */
-    PF_BY_BOUNDARY = 8   /* PF_FACET: on where a boundary line has the key of its PF_DATA slot  */
+    /* Faded in from 0 to 1 when a steady case does not converge; all such terms of all plugins share one
+     * factor, so flag what makes the problem nonlinear and what drives it. */
+    PF_CONTINUATION = 4,
+    /* PF_FACET: on where a boundary line has the name of its PF_DATA slot as a key:
+     * boundary "left" { heat_flux = 3 } */
+    PF_BY_BOUNDARY = 8
 };
 
 typedef struct pf_term {
@@ -161,7 +169,7 @@ typedef struct pf_term {
     int (*check)(const void *params, char *err, size_t nerr); /* across parameters        */
     pf_residual_fn *residual;
     pf_residual_c_fn *residual_c; /* the same source compiled for complex numbers         */
-    pf_jacobian_fn *jacobian;     /* by hand, or NULL                                     */
+    pf_jacobian_fn *jacobian;     /* by hand, or NULL: complex step, or else differences  */
 } pf_term;
 
 typedef struct pf_plugin {
