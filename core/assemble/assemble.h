@@ -12,6 +12,7 @@
 #define ASSEMBLE_ASSEMBLE_H
 
 #include "base/value.h"
+#include "particle/particle.h"
 #include "space/space.h"
 #include "term/term.h"
 
@@ -56,7 +57,9 @@ typedef struct plan_use {
 typedef struct assembly_class {
     int where;
     int64_t n_item;
-    int32_t *cell, *facet; /* of each item; facet[] = local number, all 0 for cells    */
+    int32_t *cell, *facet;
+    int64_t *group;       /* of each item: the carriers that it adds to (see space.h)       */
+    const double *weight; /* PF_SOLID: reference weights of each item, [n_item][n_q]         */
     int64_t n_batch;
     int64_t *batch; /* first item of each batch, [n_batch + 1]                  */
     int n_slab;
@@ -78,6 +81,7 @@ typedef struct assembly_class {
     int order_used[3], grad_used[3];
     double data_time;
     int data_ready;
+    arena item_memory; /* PF_SOLID: what changes with the bodies                     */
 } assembly_class;
 
 typedef struct assembly {
@@ -85,6 +89,7 @@ typedef struct assembly {
     int n_thread, n_class;
     assembly_class *class_;
     struct workspace *work; /* [n_thread] */
+    const particle *particle;
     arena memory;
 } assembly;
 
@@ -93,6 +98,7 @@ typedef struct assembly_spec {
     int where;               /* PF_CELL or PF_FACET                                     */
     int boundary;            /* PF_FACET: boundary name, or -1 for all                  */
     const uint8_t *facet_on; /* PF_FACET: [mesh->n_facet] 1 = the facet belongs to it   */
+    const cut_rule *solid;   /* PF_SOLID: its points                                    */
     int n_use;
     term_use **use;
 } assembly_spec;
@@ -101,9 +107,14 @@ typedef struct assembly_spec {
 typedef struct assembly_state {
     double t, dt, shift;
     const double *x, *dot, *old;
+    uint32_t only; /* not 0: only terms with one of these flags */
 } assembly_state;
 
 int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int n_spec, int n_thread, error *err);
+
+/* Tells the PF_SOLID classes which attached pairs (space.h) a body covers, with weights [n][rule->n]. */
+int assembly_set_solid(assembly *a, const particle *particle, const cut_rule *rule, int64_t n,
+                       const int32_t *attached, const double *weight, error *err);
 
 /* residual[n_dof] (of all unknowns, fixed ones too: their rows are reactions) and, unless NULL,
  * value[nnz] of the matrix over free unknowns; both are overwritten.  With `diagnose` every
@@ -117,6 +128,8 @@ void assembly_destroy(assembly *a);
 
 typedef struct workspace {
     v8 *x_node;             /* [dim][nodes]                                            */
+    v8 *arm, *density;      /* [dim][n_q], [n_q] */
+    int32_t *id;            /* [n_q][8] */
     v8 *w, *x, *normal, *h; /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
     v8 *basis[3][4];        /* [order][value, d/dx, d/dy, d/dz]: [i][n_q], i padded     */
     v8 *dof;                /* nodal values of one field                               */
@@ -151,7 +164,9 @@ static inline int assemble_local(const space *s, int field, int i)
 {
     const fe_cell *type = s->mesh->type;
 
-    return s->field[field].order == 2 ? i : s->field[field].order == 1 ? type->vertex[i] : type->n_node;
+    if (s->field[field].order)
+        return s->field[field].order == 2 ? i : type->vertex[i];
+    return type->n_node + (s->field[field].support == PF_ON_PARTICLE ? s->any_problem : 0);
 }
 
 #endif

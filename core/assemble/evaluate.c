@@ -114,6 +114,9 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
         .x = (double *)w->x,
         .normal = c->where == PF_FACET ? (double *)w->normal : NULL,
         .h = (double *)w->h,
+        .arm = c->where == PF_SOLID ? (double *)w->arm : NULL,
+        .density = c->where == PF_SOLID ? (double *)w->density : NULL,
+        .id = c->where == PF_SOLID ? w->id : NULL,
         .scratch = w->scratch,
         .kernel = &w->report,
     };
@@ -128,7 +131,7 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
         double *out[TERM_MAX_SLOTS], *at = (double *)w->out;
         int status;
 
-        if (p->use->factor == 0)
+        if (p->use->factor == 0 || (s->only && !(t->flags & s->only)))
             continue;
         for (uint32_t k = 0; k < t->n_in; k++)
             in[k] = (double *)(w->in + c->input[p->in[k]].at * nq);

@@ -88,7 +88,7 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
     return 0;
 }
 
-static int place_rules(assembly *a, assembly_class *c, error *err)
+static int place_rules(assembly *a, assembly_class *c, const cut_rule *solid, error *err)
 {
     const fe_cell *type = a->space->mesh->type;
     int n_rule = c->where == PF_FACET ? type->n_facet : 1;
@@ -96,10 +96,14 @@ static int place_rules(assembly *a, assembly_class *c, error *err)
     for (int f = 0; f < n_rule; f++) {
         fe_rule *r = &c->rule[f];
 
-        if (c->where == PF_FACET)
+        if (c->where == PF_FACET) {
             TRY(fe_rule_facet(type, f, FACET_DEGREE, r, c->tangent[f], &c->orient[f], err));
-        else
+        } else if (c->where == PF_SOLID) {
+            r->n = solid->n;
+            memcpy(r->x, solid->x, (size_t)solid->n * sizeof *r->x);
+        } else {
             TRY(fe_rule_cell(type, CELL_DEGREE, r, err));
+        }
         c->n_q = r->n;
         for (int order = 0; order < 3; order++) {
             int n = fe_n_basis(type, order);
@@ -148,6 +152,7 @@ static int split_slabs(assembly *a, assembly_class *c, const int32_t *cell, cons
                 (facet && c->facet[at - 1] != facet[i]))
                 c->batch[c->n_batch++] = at;
             c->cell[at] = cell[i];
+            c->group[at] = cell[i];
             c->facet[at++] = facet ? facet[i] : 0;
         }
     }
@@ -169,6 +174,7 @@ static int place_items(assembly *a, assembly_class *c, const assembly_spec *spec
     ARENA_NEW(&a->memory, cell, c->n_item, err);
     ARENA_NEW(&a->memory, c->cell, c->n_item, err);
     ARENA_NEW(&a->memory, c->facet, c->n_item, err);
+    ARENA_NEW(&a->memory, c->group, c->n_item, err);
     ARENA_NEW(&a->memory, c->batch, c->n_item + 1, err);
     ARENA_NEW(&a->memory, c->slab, c->n_slab + 2, err);
     if (spec->where == PF_FACET) {
@@ -189,7 +195,7 @@ static int place_items(assembly *a, assembly_class *c, const assembly_spec *spec
 int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err)
 {
     const space *s = a->space;
-    int serial = spec->where == PF_FACET;
+    int serial = spec->where == PF_FACET || spec->where == PF_SOLID;
 
     c->where = spec->where;
     memset(c->block, 0xff, sizeof c->block);
@@ -209,7 +215,9 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
             }
     }
     c->n_slab = serial ? 1 : a->n_thread;
-    TRY(place_rules(a, c, err));
+    TRY(place_rules(a, c, spec->solid, err));
+    if (c->where == PF_SOLID)
+        return 0; /* its items come with the bodies */
     TRY(place_items(a, c, spec, err));
     for (int i = 0; i < c->n_input; i++)
         if (c->input[i].data && c->input[i].data->f)
@@ -242,6 +250,9 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
     ARENA_NEW(&w->memory, w->x, q * dim, err);
     ARENA_NEW(&w->memory, w->normal, q * dim, err);
     ARENA_NEW(&w->memory, w->h, q, err);
+    ARENA_NEW(&w->memory, w->arm, q * dim, err);
+    ARENA_NEW(&w->memory, w->density, q, err);
+    ARENA_NEW(&w->memory, w->id, q * PF_LANES, err);
     for (int order = 0; order < 3; order++)
         for (size_t k = 0; k <= dim; k++)
             ARENA_NEW(&w->memory, w->basis[order][k], (size_t)assemble_padded(fe_n_basis(type, order)) * q, err);
@@ -257,4 +268,38 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
     ARENA_NEW(&w->memory, w->mat, n * n * dim * dim, err);
     w->scratch = arena_alloc(&w->memory, scratch, 1);
     return w->scratch ? 0 : error_memory(err, "scratch", (double)scratch);
+}
+
+int assembly_set_solid(assembly *a, const particle *particle, const cut_rule *rule, int64_t n,
+                       const int32_t *attached, const double *weight, error *err)
+{
+    const space *s = a->space;
+
+    a->particle = particle;
+    for (int k = 0; k < a->n_class; k++) {
+        assembly_class *c = &a->class_[k];
+
+        if (c->where != PF_SOLID)
+            continue;
+        arena_free(&c->item_memory);
+        c->n_item = n;
+        c->n_batch = (n + PF_LANES - 1) / PF_LANES;
+        c->n_slab = 1;
+        c->weight = weight;
+        ARENA_NEW(&c->item_memory, c->cell, n + 1, err);
+        ARENA_NEW(&c->item_memory, c->facet, n + 1, err);
+        ARENA_NEW(&c->item_memory, c->group, n + 1, err);
+        ARENA_NEW(&c->item_memory, c->batch, c->n_batch + 1, err);
+        ARENA_NEW(&c->item_memory, c->slab, 3, err);
+        for (int64_t i = 0; i < n; i++) {
+            c->cell[i] = s->attached_cell[attached[i]];
+            c->group[i] = s->mesh->n_cell + attached[i];
+        }
+        for (int64_t b = 0; b <= c->n_batch; b++)
+            c->batch[b] = b * PF_LANES < n ? b * PF_LANES : n;
+        c->slab[1] = c->slab[2] = c->n_batch;
+        if (rule->n != c->n_q)
+            return error_set(err, ERR_CASE, "the points of a body do not fit its class");
+    }
+    return 0;
 }

@@ -82,6 +82,25 @@ static v8 facet_measure(int dim, v8 j[3][3], const double tangent[2][3], int ori
     return size;
 }
 
+/* Arm from the centre of its particle, density and number, at the points of each lane. */
+static void particle_slots(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
+{
+    const space *s = a->space;
+    int dim = s->mesh->dim, nq = c->n_q;
+
+    for (int l = 0; l < 8; l++) {
+        int32_t id = s->attached_particle[c->group[item_of(c, batch, l)] - s->mesh->n_cell];
+        const particle *p = &a->particle[id];
+
+        for (int q = 0; q < nq; q++) {
+            for (int k = 0; k < dim; k++)
+                w->arm[k * nq + q][l] = w->x[k * nq + q][l] - p->x[k];
+            w->density[q][l] = p->density;
+            w->id[q * 8 + l] = id;
+        }
+    }
+}
+
 void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
 {
     const mesh *m = a->space->mesh;
@@ -107,7 +126,11 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
             for (int k = 0; k < dim; k++)
                 w->normal[k * nq + q] = n[k];
         }
-        w->w[q] = det * c->rule[f].w[q];
+        if (c->weight)
+            for (int l = 0; l < 8; l++)
+                w->w[q][l] = det[l] * c->weight[item_of(c, batch, l) * nq + q];
+        else
+            w->w[q] = det * c->rule[f].w[q];
         w->h[q] = h;
         for (int k = 0; k < dim; k++) {
             v8 x = {0};
@@ -135,6 +158,8 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
                     w->basis[order][k][i * nq + q] = (v8){0};
         }
     }
+    if (c->where == PF_SOLID)
+        particle_slots(a, c, batch, w);
 }
 
 /* Nodal values of a field on the cells of a batch, dof[comp][i]. */
@@ -149,7 +174,8 @@ static void gather(const assembly *a, const assembly_class *c, int64_t batch, in
 
         for (int i = 0; i < n; i++) {
             int local = assemble_local(s, field, i);
-            int64_t node = local < nodes ? s->mesh->cell[cell * nodes + local] : s->mesh->n_node;
+            int64_t node = local < nodes ? s->mesh->cell[cell * nodes + local]
+                                         : space_carrier(s, c->group[item_of(c, batch, l)], local);
             const double *v = x + s->first[field][node];
 
             for (int k = 0; k < n_comp; k++)

@@ -15,25 +15,25 @@ static void scatter_vector(const assembly *a, const assembly_class *c, int64_t b
 
     for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++)
         for (int i = 0, l = (int)(item - c->batch[batch]); i < n; i++) {
-            double *r = residual + s->first[field][space_carrier(s, c->cell[item], assemble_local(s, field, i))];
+            double *r = residual + s->first[field][space_carrier(s, c->group[item], assemble_local(s, field, i))];
 
             for (int k = 0; k < s->field[field].n_comp; k++)
                 r[k] += w->vec[k * n + i][l];
         }
 }
 
-/* Free columns of a field on a cell: position within the columns of their carrier, or -1. */
-static void columns(const space *s, int64_t cell, int field, int n, int *local, int (*relative)[3])
+/* Free columns of a field on a group: position within the columns of their carrier, or -1. */
+static void columns(const space *s, int64_t group, int field, int n, int *local, int (*relative)[3])
 {
     for (int j = 0; j < n; j++) {
         int32_t carrier;
 
         local[j] = assemble_local(s, field, j);
-        carrier = space_carrier(s, cell, local[j]);
+        carrier = space_carrier(s, group, local[j]);
         for (int b = 0; b < s->field[field].n_comp; b++) {
             int32_t f = s->free_of[s->first[field][carrier] + b];
 
-            relative[j][b] = f < 0 ? -1 : (int)(f - s->node_free[carrier]);
+            relative[j][b] = f < 0 || s->idle[s->first[field][carrier] + b] ? -1 : (int)(f - s->node_free[carrier]);
         }
     }
 }
@@ -48,19 +48,19 @@ static void scatter_matrix(const assembly *a, const assembly_class *c, int64_t b
 
     for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++) {
         int l = (int)(item - c->batch[batch]), local[FE_MAX_NODES], relative[FE_MAX_NODES][3];
-        int64_t cell = c->cell[item];
+        int64_t group = c->group[item];
 
-        columns(s, cell, col_field, n_col, local, relative);
+        columns(s, group, col_field, n_col, local, relative);
         for (int i = 0; i < n_row; i++) {
             int li = assemble_local(s, row_field, i);
-            int32_t dof = s->first[row_field][space_carrier(s, cell, li)];
-            const int32_t *pair = s->pair + (cell * nc + li) * nc;
+            int32_t dof = s->first[row_field][space_carrier(s, group, li)];
+            const int32_t *pair = s->pair + (group * nc + li) * nc;
 
             for (int ra = 0; ra < row_comp; ra++) {
                 int32_t row = s->free_of[dof + ra];
                 double *to;
 
-                if (row < 0)
+                if (row < 0 || s->idle[dof + ra])
                     continue;
                 to = value + s->row[row];
                 for (int b = 0; b < col_comp; b++) {
@@ -121,6 +121,21 @@ static int report(const workspace *w, const assembly_class *c, error *err)
     return code;
 }
 
+/* Unknowns that are off now: their equation is x = 0. */
+static void close_idle(const space *s, double *residual, double *value)
+{
+    for (int64_t d = 0; d < s->n_dof; d++) {
+        int32_t r = s->free_of[d];
+
+        if (!s->idle[d])
+            continue;
+        residual[d] = 0;
+        for (int64_t k = r >= 0 && value ? s->row[r] : 0; k < (r >= 0 && value ? s->row[r + 1] : 0); k++)
+            if (s->col[k] == r)
+                value[k] = 1;
+    }
+}
+
 int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err)
 {
     memset(residual, 0, (size_t)a->space->n_dof * sizeof *residual);
@@ -144,6 +159,7 @@ int assembly_run(assembly *a, const assembly_state *s, double *residual, double 
             if (run_batch(a, c, s, b, diagnose, &a->work[0], residual, value))
                 return report(&a->work[0], c, err);
     }
+    close_idle(a->space, residual, value);
     return 0;
 }
 
@@ -165,6 +181,8 @@ void assembly_destroy(assembly *a)
 {
     for (int i = 0; a->work && i < a->n_thread; i++)
         arena_free(&a->work[i].memory);
+    for (int i = 0; i < a->n_class; i++)
+        arena_free(&a->class_[i].item_memory);
     arena_free(&a->memory);
     memset(a, 0, sizeof *a);
 }

@@ -21,18 +21,19 @@ const case_block *case_find(const case_file *c, const char *kind, int k)
 /* Line of `key =` in the source from the block's line on; the block's own if it is not found. */
 static int line_of_key(const case_file *c, const case_block *b, const char *key)
 {
-    const char *s = NULL;
+    const char *s = NULL, *text;
     size_t n = key ? strlen(key) : 0;
     int line = 1;
 
     for (int i = 0; i < c->n_source; i++)
         if (strcmp(c->source[i].file, b->file) == 0)
             s = c->source[i].text;
+    text = s;
     for (; s && *s && line < b->line; s++)
         line += *s == '\n';
     for (; s && key && *s && line < b->line + 60; s++) {
         line += *s == '\n';
-        if (strncmp(s, key, n) == 0 && !isalnum((unsigned char)s[-1]) && s[-1] != '_') {
+        if (strncmp(s, key, n) == 0 && (s == text || (!isalnum((unsigned char)s[-1]) && s[-1] != '_'))) {
             const char *t = s + n;
 
             while (*t == ' ' || *t == '\t')
@@ -97,7 +98,6 @@ int case_load(case_file *c, const char *path, const char *const *set, int n_set,
     TRY(sandbox_open(c, err));
     TRY(sandbox_run(c, path, err));
     lua_settop(c->lua, 0);
-    lua_sethook(c->lua, NULL, 0, 0);
     for (int i = 0; i < c->n_set; i++)
         if (!c->set[i].used) {
             const char *name[CASE_MAX_SETS], *near;

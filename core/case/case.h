@@ -101,6 +101,8 @@ void reader_close(reader *r);
 int case_value(case_file *c, const case_block *b, const char *key, int n, int dim, value *v);
 
 /* --- sandbox (sandbox.c) --- */
+/* A fresh budget of instructions for the next call of a function of the case. */
+void case_allow(case_file *c);
 int sandbox_open(case_file *c, error *err);
 int sandbox_run(case_file *c, const char *path, error *err);
 extern const char *const case_prelude;

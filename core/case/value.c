@@ -30,6 +30,7 @@ static int call(const lua_value *v, int ref, int n, const double *x, double t, d
     lua_State *l = v->c->lua;
     int base = lua_gettop(l), status = 0;
 
+    case_allow(v->c);
     lua_rawgeti(l, LUA_REGISTRYINDEX, ref);
     for (int k = 0; k < v->dim; k++)
         lua_pushnumber(l, x[k]);

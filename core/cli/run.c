@@ -119,13 +119,13 @@ int cli_run(const cli *o, error *err)
             fputc('\n', stderr);
         if (k->c.printed.n > printed && !o->quiet)
             fputs(k->c.printed.s + printed, stderr);
-        if (!status && o->json)
+        if (result.status && o->json && (!status || status == ERR_CONVERGE))
             print_file(dir, "summary.json");
         if (!status && !o->quiet && !o->json)
             conclude(&result, &k->p, dir);
         if (!status && cli_stop) {
-            error_set(err, 0, "stopped by a signal at t = %.6g; what was computed until then is in %s",
-                      k->p.time.start, dir);
+            error_set(err, 0, "stopped by a signal after %ld steps; what was computed until then is in %s",
+                      result.steps, dir);
             status = 128 + cli_stop;
         }
     }

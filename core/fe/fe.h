@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 
-enum { FE_MAX_NODES = 27, FE_MAX_POINTS = 64, FE_MAX_FACET_NODES = 9 };
+enum { FE_MAX_NODES = 27, FE_MAX_POINTS = 125, FE_MAX_FACET_NODES = 9 };
 
 typedef struct fe_cell {
     int type; /* enum pf_cell_type */

@@ -103,6 +103,7 @@ int file_clean_run(const char *dir, error *err)
                                        "summary.json", "units.json", "case.json"};
     DIR *d = opendir(dir);
     struct dirent *e;
+    char lines[4600];
 
     while (d && (e = readdir(d))) {
         char path[4600];
@@ -112,6 +113,19 @@ int file_clean_run(const char *dir, error *err)
             remove_it |= strcmp(e->d_name, mine[i]) == 0;
         snprintf(path, sizeof path, "%s/%s", dir, e->d_name);
         if (remove_it && unlink(path) != 0) {
+            closedir(d);
+            return failed(path, "remove what an earlier run left", errno, err);
+        }
+    }
+    if (d)
+        closedir(d);
+    snprintf(lines, sizeof lines, "%s/lines", dir);
+    d = opendir(lines);
+    while (d && (e = readdir(d))) {
+        char path[5000];
+
+        snprintf(path, sizeof path, "%s/%s", lines, e->d_name);
+        if (ends_with(e->d_name, ".csv") && unlink(path) != 0) {
             closedir(d);
             return failed(path, "remove what an earlier run left", errno, err);
         }
@@ -169,14 +183,6 @@ int table_add(table *t, const double *row, error *err)
     status = line.s ? file_append(t->fd, t->path, line.s, line.n, err) : error_memory(err, t->path, 0);
     text_free(&line);
     return status;
-}
-
-int table_find(const table *t, const char *column)
-{
-    for (int i = 0; i < t->n_column; i++)
-        if (strcmp(t->column[i], column) == 0)
-            return i;
-    return -1;
 }
 
 void table_destroy(table *t)

@@ -28,7 +28,6 @@ typedef struct table {
 
 int table_create(table *t, const char *path, const char *const *column, int n, error *err);
 int table_add(table *t, const double *row, error *err);
-int table_find(const table *t, const char *column); /* or -1 */
 void table_destroy(table *t);
 
 /* Appends a line to a log that is open for appending. */

@@ -44,11 +44,13 @@ static void check_conflicts(problem *p, const case_block *b, const char *what, c
 {
     for (int i = 0; i < l->n_flux; i++) {
         const pf_term *t = l->flux[i]->term;
-        int f = space_find_field(&p->space, t->out[0].field), free = 0;
+        int f = space_find_field(&p->space, t->out[0].field), free = 0, lost = 0;
 
-        for (int k = 0; f >= 0 && k < p->space.field[f].n_comp; k++)
+        for (int k = 0; f >= 0 && k < p->space.field[f].n_comp; k++) {
             free |= l->value[f].free[k];
-        for (uint32_t k = 0; f >= 0 && l->has_value[f] && !free && k < t->n_in; k++)
+            lost |= !l->value[f].free[k] && l->flux_value[i].constant[k] != 0;
+        }
+        for (uint32_t k = 0; f >= 0 && l->has_value[f] && (!free || lost) && k < t->n_in; k++)
             if (t->in[k].eval == PF_DATA)
                 case_wrong(p->c, b, t->in[k].name,
                            "%s: \"%s\" and \"%s\" are both given; where %s is prescribed, %s has no effect", what,
@@ -160,7 +162,15 @@ static int attach_facets(problem *p, error *err)
             bit[i] |= k >= 0 ? (uint64_t)1 << k : 0;
         }
         named |= bit[i];
+        if (l->periodic[0] && l->periodic[1] && strcmp(l->periodic[0], l->periodic[1]) == 0)
+            case_wrong(p->c, l->block, "periodic", "boundary: \"%s\" cannot be periodic with itself",
+                       l->periodic[0]);
     }
+    for (int i = 0; i < p->n_line; i++)
+        for (int k = 0; k < p->n_line; k++)
+            if (i != k && p->line[i].periodic[0] && (bit[i] & bit[k]))
+                case_wrong(p->c, p->line[k].block, NULL,
+                           "boundary: a boundary that is periodic has another condition as well");
     for (int64_t f = 0; f < m->n_facet; f++) {
         for (int i = 0; i < p->n_line; i++)
             p->line[i].facet[f] = p->line[i].name && strcmp(p->line[i].name, "*") == 0
@@ -299,6 +309,26 @@ int problem_make_boundaries(problem *p, error *err)
     return case_finish(p->c, err);
 }
 
+/* Velocity and spin of bodies whose motion is given; held components of free ones stay as they began. */
+static int prescribed_motion(const problem *p, double t, double *x, error *err)
+{
+    for (int k = 0; k < p->n_particle; k++) {
+        const particle *q = &p->particle[k];
+        int64_t first[2] = {problem_particle_dof(p, k, PF_VECTOR), problem_particle_dof(p, k, PF_SPIN)};
+
+        for (int s = 0; s < 2; s++) {
+            const value *given = s ? &q->spin : &q->velocity;
+            double v[VALUE_MAX];
+
+            TRY(value_at(given, (double[3]){0}, t, v, err));
+            for (int i = 0; first[s] >= 0 && i < given->n; i++)
+                if (p->space.fixed[first[s] + i])
+                    x[first[s] + i] = v[i];
+        }
+    }
+    return 0;
+}
+
 int problem_dirichlet(void *problem_, double t, double *x, error *err)
 {
     problem *p = problem_;
@@ -317,5 +347,5 @@ int problem_dirichlet(void *problem_, double t, double *x, error *err)
                     to[k] = v[k];
         }
     }
-    return 0;
+    return prescribed_motion(p, t, x, err);
 }

@@ -25,9 +25,9 @@ static int make_periodic(problem *p, error *err)
 static int make_system(problem *p, error *err)
 {
     assembly_spec spec[PROBLEM_MAX_LINES + 2] = {{0}};
-    term_use *cell[ASSEMBLE_MAX_USES], *facet[ASSEMBLE_MAX_USES];
+    term_use *cell[ASSEMBLE_MAX_USES], *facet[ASSEMBLE_MAX_USES], *solid[ASSEMBLE_MAX_USES];
     uint8_t *all;
-    int n = 1;
+    int n = 1, n_facet = 0, n_solid = 0;
 
     spec[0] = (assembly_spec){.where = PF_CELL, .use = cell};
     for (int i = 0; i < p->n_use; i++) {
@@ -35,20 +35,26 @@ static int make_system(problem *p, error *err)
 
         if (u->term->where == PF_CELL || u->term->where == PF_FLUID)
             cell[spec[0].n_use++] = u;
+        else if (u->term->where == PF_SOLID)
+            solid[n_solid++] = u;
         else if (!(u->term->flags & PF_BY_BOUNDARY))
-            facet[spec[1].n_use++] = u;
-        if (u->term->flags & PF_CONTINUATION)
-            p->continuation.n_use++;
+            facet[n_facet++] = u;
     }
-    ARENA_NEW(&p->memory, p->continuation.use, p->n_use + 1, err);
+    ARENA_NEW(&p->memory, p->continuation.use, p->n_use + p->n_line * ASSEMBLE_MAX_USES + 1, err);
     p->continuation.n_use = 0;
     for (int i = 0; i < p->n_use; i++)
-        if (p->use[i].term->flags & PF_CONTINUATION)
+        if ((p->use[i].term->flags & PF_CONTINUATION) && !(p->use[i].term->flags & PF_BY_BOUNDARY))
             p->continuation.use[p->continuation.n_use++] = &p->use[i];
-    if (spec[1].n_use) {
+    for (int i = 0; i < p->n_line; i++)
+        for (int k = 0; k < p->line[i].n_flux; k++)
+            if (p->line[i].flux[k]->term->flags & PF_CONTINUATION)
+                p->continuation.use[p->continuation.n_use++] = p->line[i].flux[k];
+    if (n_solid)
+        spec[n++] = (assembly_spec){.where = PF_SOLID, .use = solid, .n_use = n_solid, .solid = &p->cut};
+    if (n_facet) {
         ARENA_NEW(&p->memory, all, p->mesh.n_facet, err);
         memset(all, 1, (size_t)p->mesh.n_facet);
-        spec[n++] = (assembly_spec){.where = PF_FACET, .use = facet, .n_use = spec[1].n_use, .facet_on = all};
+        spec[n++] = (assembly_spec){.where = PF_FACET, .use = facet, .n_use = n_facet, .facet_on = all};
     }
     for (int i = 0; i < p->n_line; i++)
         if (p->line[i].n_flux)
@@ -73,16 +79,23 @@ int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *e
         p->dim = 2; /* the mesh block is wrong and said so; go on to find what else is */
     TRY(problem_read_terms(p, err));
     TRY(problem_read_boundaries(p, err));
+    TRY(problem_read_particles(p, err));
     TRY(problem_read_settings(p, err));
     TRY(case_finish(c, err));
     TRY(problem_make_mesh(p, err));
     TRY(make_periodic(p, err));
+    p->space.n_particle = p->n_particle;
     TRY(space_number(&p->space, &p->mesh, err));
-    TRY(problem_make_boundaries(p, err));
-    TRY(problem_make_outputs(p, err));
-    TRY(space_constrain(&p->space, err));
-    TRY(make_system(p, err));
     ARENA_NEW(&p->memory, p->x, p->space.n_dof, err);
+    TRY(problem_make_boundaries(p, err));
+    problem_hold_particles(p);
+    TRY(problem_make_outputs(p, err));
+    if (p->n_particle)
+        TRY(problem_make_particles(p, err));
+    else
+        TRY(space_constrain(&p->space, err));
+    TRY(make_system(p, err));
+    TRY(problem_cut(p, p->x, err));
     p->setup_seconds = solve_seconds() - start;
     return 0;
 }
@@ -95,19 +108,30 @@ int problem_initial(problem *p, error *err)
         for (int64_t c = 0; p->has_initial[f] && c < s->n_carrier; c++) {
             double x[3] = {0}, v[VALUE_MAX] = {0};
 
-            if (s->first[f][c] < 0)
+            if (s->first[f][c] < 0 || s->field[f].support == PF_ON_PARTICLE)
                 continue;
             if (c < p->mesh.n_node)
                 memcpy(x, p->mesh.x + c * p->dim, (size_t)p->dim * sizeof *x);
             TRY(value_at(&p->initial[f], x, p->time.start, v, err));
             memcpy(p->x + s->first[f][c], v, (size_t)s->field[f].n_comp * sizeof *v);
         }
+    for (int k = 0; k < p->n_particle; k++) {
+        int64_t u = problem_particle_dof(p, k, PF_VECTOR), w = problem_particle_dof(p, k, PF_SPIN);
+
+        if (u >= 0)
+            TRY(value_at(&p->particle[k].velocity, (double[3]){0}, p->time.start, p->x + u, err));
+        if (w >= 0)
+            TRY(value_at(&p->particle[k].spin, (double[3]){0}, p->time.start, p->x + w, err));
+    }
     return problem_dirichlet(p, p->time.start, p->x, err);
 }
 
 void problem_destroy(problem *p)
 {
+    cut_rule_destroy(&p->cut);
+    cell_grid_destroy(&p->grid);
     system_destroy(&p->system);
+    arena_free(&p->envelope_memory);
     space_destroy(&p->space);
     mesh_destroy(&p->mesh);
     arena_free(&p->memory);

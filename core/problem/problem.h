@@ -82,6 +82,24 @@ typedef struct problem {
     term_use use[ASSEMBLE_MAX_USES];
     int n_line;
     boundary_line *line; /* [PROBLEM_MAX_LINES] */
+    int n_particle;
+    particle *particle;
+    particle *remembered[2]; /* [n_particle] places to come back to                    */
+    cell_grid grid;
+    cut_rule cut;
+    double *envelope; /* [n_particle][3] centre when cells were attached        */
+    double *whole;    /* [n_dof] int phi_i^2 over the domain, restricted fields */
+    double *inside;   /* [n_dof] the same over the bodies                       */
+    double *weight;   /* of the covered cells                                   */
+    int32_t *covered; /* attached pairs that a body covers                      */
+    int64_t n_covered;
+    double active_threshold; /* tau of the active set                                  */
+    double geometry_seconds;
+    double *cut_basis; /* second-order basis at the points of the cut rule       */
+    double h_mean, h_max;
+    int coarse_warned;
+    long n_attach; /* how often cells were attached anew                     */
+    arena envelope_memory;
     int n_dirichlet;
     dirichlet_set *dirichlet;
     value initial[SPACE_MAX_FIELDS], exact[SPACE_MAX_FIELDS];
@@ -106,12 +124,23 @@ int problem_dirichlet(void *problem, double t, double *x, error *err);
 /* Initial values (zero where the case gives none), then the prescribed ones. */
 int problem_initial(problem *p, error *err);
 
+/* Attaches cells, cuts them, finds the active set for the places that the bodies have now; zeroes in x
+ * what is off. */
+int problem_cut(problem *p, double *x, error *err);
+/* The stepper's hook (solve.h). */
+int problem_move(void *problem, enum move what, int slot, double dt, const double *u0, double *u1, error *err);
+/* Unknowns of a particle: first dof of the field of this shape (PF_VECTOR, PF_SPIN), or -1. */
+int64_t problem_particle_dof(const problem *p, int k, int shape);
+
 /* --- between the files of this folder --- */
 int problem_read_mesh(problem *p, error *err); /* reads mesh{} and finds the dimension; no mesh yet */
 int problem_make_mesh(problem *p, error *err);
 int problem_read_terms(problem *p, error *err);
 int problem_read_boundaries(problem *p, error *err);
 int problem_make_boundaries(problem *p, error *err);
+int problem_read_particles(problem *p, error *err);
+int problem_make_particles(problem *p, error *err);
+void problem_hold_particles(problem *p); /* marks the unknowns that do not move by themselves */
 int problem_read_settings(problem *p, error *err);
 int problem_make_outputs(problem *p, error *err);
 

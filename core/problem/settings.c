@@ -63,7 +63,7 @@ static void field_list(problem *p, reader *r)
         int f = space_find_field(&p->space, list[i]);
         const char *near = text_nearest(list[i], name, (size_t)p->space.n_field);
 
-        if (f >= 0)
+        if (f >= 0 && p->space.field[f].support == PF_ON_MESH)
             o->field[o->n_field++] = f;
         else
             case_wrong(p->c, r->b, "fields", "output: there is no field \"%s\"%s%s%s", list[i],
@@ -92,11 +92,17 @@ static int point(problem *p, const char *key, double *x)
     return ok;
 }
 
+static int is_name(const char *s)
+{
+    return *s && s[strspn(s, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")] == 0 &&
+           strlen(s) < 40;
+}
+
 static int proper_name(problem *p, reader *r, const char *key, const char **name, int n, int most)
 {
     lua_State *l = p->c->lua;
 
-    if (lua_type(l, -2) != LUA_TSTRING || strpbrk(lua_tostring(l, -2), "/\\,\"\n. ") || n == most) {
+    if (lua_type(l, -2) != LUA_TSTRING || !is_name(lua_tostring(l, -2)) || n == most) {
         case_wrong(p->c, r->b, key,
                    "output: %s: every entry needs a name of its own (letters, digits, _), at most %d", key, most);
         return 0;
@@ -180,6 +186,10 @@ static void read_output(problem *p)
     read_probes(p, &r);
     reader_strings(&r, "forces", "boundaries whose force (and other reactions) is wanted", MESH_MAX_NAMES,
                    o->force_name, &n);
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < i; k++)
+            if (o->force_name[i] && strcmp(o->force_name[i], o->force_name[k]) == 0)
+                case_wrong(p->c, r.b, "forces", "output: forces: \"%s\" stands there twice", o->force_name[i]);
     o->n_force = n;
     reader_vector(&r, "about", "point that torques refer to", p->dim, about);
     for (int i = 0; i < n; i++)
@@ -259,6 +269,11 @@ int problem_make_outputs(problem *p, error *err)
 
     for (int i = 0; i < o->n_force; i++) {
         o->force[i].boundary = mesh_find_name(&p->mesh, o->force_name[i]);
+        for (int k = 0; k < p->mesh.n_period; k++)
+            if (o->force[i].boundary >= 0 &&
+                (p->mesh.period[k][0] == o->force[i].boundary || p->mesh.period[k][1] == o->force[i].boundary))
+                case_wrong(p->c, o->block, "forces", "output: forces: \"%s\" is periodic; no force acts on it",
+                           o->force_name[i]);
         if (o->force[i].boundary < 0) {
             const char *near =
                 text_nearest(o->force_name[i], (const char *const *)p->mesh.name, (size_t)p->mesh.n_name);

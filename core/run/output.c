@@ -62,7 +62,9 @@ static int open_table(run *r, table *t, const char *file, columns *c, text *unit
     text_add(units, "%s\n  \"%s\": {", units->n > 1 ? "," : "", file);
     for (int i = 0; i < c->n; i++) {
         name[i] = c->name[i];
-        text_add(units, "%s\"%s\": \"%s\"", i ? ", " : "", c->name[i], c->unit[i]);
+        text_add(units, "%s", i ? ", " : "");
+        text_json(units, c->name[i]);
+        text_add(units, ": \"%s\"", c->unit[i]);
     }
     text_add(units, "}");
     status = table_create(t, path, name, c->n, err);
@@ -123,16 +125,10 @@ static int open_tables(run *r, text *units, error *err)
         if (!name)
             return error_memory(err, "probes.csv", 0);
         strcpy(*name, "t");
-        ARENA_NEW(&p->memory, r->probe_at, o->n_probe, err);
         for (int i = 0; i < o->n_probe; i++) {
             char prefix[60];
 
             snprintf(prefix, sizeof prefix, "%.50s.", o->probe[i].name);
-            r->probe_at[i] = locate_point(&p->mesh, o->probe[i].x);
-            if (r->probe_at[i].cell < 0)
-                return error_set(err, ERR_CASE, "%s:%d: output: probe \"%s\" at (%g, %g%s%g) lies outside the mesh",
-                                 o->block->file, o->block->line, o->probe[i].name, o->probe[i].x[0],
-                                 o->probe[i].x[1], p->dim == 3 ? ", " : "; ", o->probe[i].x[2]);
             for (int f = 0; f < p->space.n_field; f++) {
                 name = more(&c, p->space.field[f].n_comp, p->space.field[f].unit);
                 if (!name)
@@ -141,6 +137,22 @@ static int open_tables(run *r, text *units, error *err)
             }
         }
         TRY(open_table(r, &r->probes, "probes.csv", &c, units, err));
+    }
+    return 0;
+}
+
+static int locate_probes(run *r, error *err)
+{
+    problem *p = r->p;
+    const problem_output *o = &p->output;
+
+    ARENA_NEW(&p->memory, r->probe_at, o->n_probe + 1, err);
+    for (int i = 0; i < o->n_probe; i++) {
+        r->probe_at[i] = locate_point(&p->mesh, o->probe[i].x);
+        if (r->probe_at[i].cell < 0)
+            return error_set(err, ERR_CASE, "%s:%d: output: probe \"%s\" at (%g, %g%s%g) lies outside the mesh",
+                             o->block->file, o->block->line, o->probe[i].name, o->probe[i].x[0], o->probe[i].x[1],
+                             p->dim == 3 ? ", " : "; ", o->probe[i].x[2]);
     }
     return 0;
 }
@@ -228,9 +240,10 @@ int output_open(run *r, error *err)
     text units = {0};
     int status;
 
+    TRY(locate_lines(r, err));
+    TRY(locate_probes(r, err)); /* before anything of an earlier run goes */
     TRY(file_make_dir(r->dir, err));
     TRY(file_clean_run(r->dir, err));
-    TRY(locate_lines(r, err));
     TRY(write_case(r, err));
     snprintf(path, sizeof path, "%s/run.jsonl", r->dir);
     TRY(file_write(path, "", 0, err));

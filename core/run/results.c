@@ -96,6 +96,17 @@ static void push_argument(lua_State *l, const run *r)
     lua_setfield(l, -2, "dt");
 }
 
+/* Protected: all of it allocates. */
+static int push_and_call(lua_State *l)
+{
+    const run *r = lua_touserdata(l, 1);
+
+    lua_rawgeti(l, LUA_REGISTRYINDEX, case_find(r->p->c, "results", 0)->ref);
+    push_argument(l, r);
+    lua_call(l, 1, 1);
+    return 1;
+}
+
 static int by_key(const void *a, const void *b)
 {
     return strcmp(*(const char *const *)a, *(const char *const *)b);
@@ -111,8 +122,9 @@ int results_evaluate(run *r, error *err)
     if (!b)
         return 0;
     lua_settop(l, 0);
-    lua_rawgeti(l, LUA_REGISTRYINDEX, b->ref);
-    push_argument(l, r);
+    lua_pushcfunction(l, push_and_call);
+    lua_pushlightuserdata(l, r);
+    case_allow(r->p->c);
     if (lua_pcall(l, 1, 1, 0) != LUA_OK)
         return error_set(err, ERR_CASE, "%s", lua_tostring(l, -1) ? lua_tostring(l, -1) : "results: error");
     if (!lua_istable(l, -1))

@@ -75,15 +75,23 @@ static int log_solve(run *r, double t, double dt, const newton_report *report, e
 /* Says so if what flows in does not flow out. */
 static void warn_defect(run *r)
 {
-    const gauge *g = &r->p->system.gauge;
+    const problem *p = r->p;
+    const gauge *g = &p->system.gauge;
+    double speed = 0;
 
-    for (int f = 0; f < r->p->space.n_field; f++)
-        if (g->free[f] && fabs(g->defect[f]) > 1e-3 * pow(g->volume, 1 - 1.0 / r->p->dim))
+    for (int64_t d = 0; d < p->space.n_dof; d++)
+        if (p->space.field[p->space.dof_field[d]].shape == PF_VECTOR)
+            speed = fmax(speed, fabs(p->x[d]));
+    for (int f = 0; f < p->space.n_field; f++)
+        if (g->free[f] && !r->warned && fabs(g->defect[f]) > 1e-3 * speed * pow(g->volume, 1 - 1.0 / p->dim)) {
+            r->warned = 1;
             say(r,
-                "  warning: the boundary values of the flow leave a net inflow of %.3g; with no outflow it is "
-                "spread over "
-                "the domain as sources. Is an outflow (natural = true) missing?",
-                -g->defect[f]);
+                "  warning: %s is free up to a constant and its equations do not add up: by %.3g (the net flow "
+                "through the "
+                "boundary, if %s is a pressure); the excess is spread over the domain. Is an outflow (natural = "
+                "true) missing?",
+                p->space.field[f].name, -g->defect[f], p->space.field[f].name);
+        }
 }
 
 static int steady(run *r, error *err)
@@ -96,11 +104,16 @@ static int steady(run *r, error *err)
     p->system.talk_ctx = r;
     TRY(continuation_solve(&p->system, &p->continuation, &p->newton, p->x, &report, &steps, tell_continuation, r,
                            err));
-    r->result->newton_iterations = r->result->last_newton = report.iterations;
+    r->result->newton_iterations = report.total;
+    r->result->last_newton = report.iterations;
     r->result->newton_order = report.order;
     r->result->newton_ratio = report.ratio;
     r->result->steps = 1;
     TRY(log_solve(r, 0, 0, &report, err));
+    if (!report.converged && p->system.stop && *p->system.stop) {
+        r->result->status = "interrupted";
+        return 0;
+    }
     if (!report.converged)
         return error_set(err, ERR_CONVERGE,
                          "no steady state found: %s; refine the mesh, start from an easier problem (solve { "
@@ -111,7 +124,7 @@ static int steady(run *r, error *err)
         report.order, report.ratio);
     gauge_zero_mean(&p->system, p->x);
     warn_defect(r);
-    memcpy(r->residual, p->system.residual, (size_t)p->space.n_dof * sizeof *r->residual);
+    TRY(newton_residual(&p->system, &(newton_time){0}, p->x, r->residual, err));
     TRY(output_series(r, 0, err));
     TRY(output_fields(r, 0, err));
     return output_lines(r, 0, err);
@@ -129,11 +142,11 @@ static int one_step(run *r, stepper *s, double next, error *err)
     r->result->halved = s->n_halved;
     memcpy(p->x, s->x, (size_t)p->space.n_dof * sizeof *p->x);
     gauge_zero_mean(&p->system, p->x);
-    memcpy(r->residual, p->system.residual, (size_t)p->space.n_dof * sizeof *r->residual);
+    memcpy(r->residual, s->residual, (size_t)p->space.n_dof * sizeof *r->residual);
     TRY(log_solve(r, s->t, s->dt_previous, &s->report, err));
     TRY(output_series(r, s->t, err));
     progress = (run_progress){.step = r->result->steps,
-                              .steps = lround((p->time.stop - p->time.start) / p->time.step),
+                              .steps = lround(ceil((p->time.stop - p->time.start) / p->time.step * (1 - 1e-12))),
                               .t = s->t,
                               .dt = s->dt_previous,
                               .newton = s->newton_iterations - before,
@@ -154,9 +167,15 @@ static int march(run *r, stepper *s, const volatile sig_atomic_t *stop, error *e
     for (long k = 1; k <= n; k++) {
         double next = k == n ? time->stop : time->start + (double)k * time->step;
 
-        TRY(one_step(r, s, next, err));
-        if (k == 1)
-            warn_defect(r);
+        {
+            int status = one_step(r, s, next, err);
+            error ignored;
+
+            if (status && s->t > written) /* the last good state goes to disk */
+                output_fields(r, s->t, &ignored);
+            TRY(status);
+        }
+        warn_defect(r);
         if (s->t >= written + p->output.every - shown || k == n) {
             written = p->output.every * floor((s->t - time->start + shown) / p->output.every) + time->start;
             TRY(output_fields(r, s->t, err));
@@ -178,6 +197,7 @@ static int unsteady(run *r, const volatile sig_atomic_t *stop, error *err)
     if (!status) {
         s.options = p->newton;
         s.t = p->time.start;
+        s.move = p->n_particle ? problem_move : NULL;
         memcpy(s.x, p->x, (size_t)p->space.n_dof * sizeof *s.x);
         status = march(r, &s, stop, err);
         r->result->last_newton = s.report.iterations;
@@ -202,7 +222,7 @@ static int finish(run *r, error *err)
                            &r->result->error_norm[i].l2_exact, err));
         r->result->n_error++;
     }
-    return results_evaluate(r, err);
+    return strcmp(r->result->status, "ok") == 0 ? results_evaluate(r, err) : 0;
 }
 
 static const char *status_of(int code)
@@ -224,8 +244,11 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
     memset(result, 0, sizeof *result);
     result->status = "ok";
     r.forces.fd = r.probes.fd = -1;
+    p->system.stop = stop;
     ARENA_NEW(&p->memory, r.residual, p->space.n_dof, err);
     status = problem_initial(p, err);
+    if (!status)
+        status = problem_cut(p, p->x, err);
     if (!status)
         status = output_open(&r, err);
     if (!status) {

@@ -49,7 +49,7 @@ typedef struct run {
     run_result *result;
     table forces, probes;
     struct located *probe_at, **line_at;
-    int log_fd;
+    int log_fd, warned;
     int n_file, room;
     char **file;
     double *file_time;

@@ -23,13 +23,15 @@ int continuation_solve(newton_system *s, continuation *c, const newton_options *
     newton_time steady = {0};
     newton_options loose = *o;
     double *start, *last, *before, at = 0, previous = -1, ds = 0.25;
+    int total = 0;
 
     *n_steps = 0;
     ARENA_NEW(&s->memory, start, n, err);
     memcpy(start, x, n * sizeof *x);
     if (c->n_parameter == 0) {
         TRY(newton_solve(s, &steady, o, x, report, err));
-        if (report->converged || c->n_use == 0)
+        report->total = total = report->iterations;
+        if (report->converged || c->n_use == 0 || (s->stop && *s->stop))
             return 0;
         if (talk)
             talk(ctx, 1, report->iterations, 0);
@@ -40,9 +42,10 @@ int continuation_solve(newton_system *s, continuation *c, const newton_options *
     loose.tolerance = fmax(o->tolerance, 1e-6);
     set(c, 0);
     TRY(newton_solve(s, &steady, &loose, x, report, err));
+    total += report->iterations;
     if (talk)
         talk(ctx, 0, report->iterations, report->converged);
-    while (report->converged && at < 1) {
+    while (report->converged && at < 1 && !(s->stop && *s->stop)) {
         double next = fmin(1, at + ds);
 
         memcpy(last, x, n * sizeof *x);
@@ -50,6 +53,7 @@ int continuation_solve(newton_system *s, continuation *c, const newton_options *
             x[i] += (next - at) / (at - previous) * (last[i] - before[i]);
         set(c, next);
         TRY(newton_solve(s, &steady, next >= 1 ? o : &loose, x, report, err));
+        total += report->iterations;
         ++*n_steps;
         if (talk)
             talk(ctx, next, report->iterations, report->converged);
@@ -65,5 +69,6 @@ int continuation_solve(newton_system *s, continuation *c, const newton_options *
         }
     }
     set(c, 1);
+    report->total = total;
     return 0;
 }

@@ -107,6 +107,16 @@ int gauge_detect(newton_system *s, error *err)
     return 0;
 }
 
+int gauge_holds(newton_system *s)
+{
+    int holds = 1;
+
+    for (int f = 0; f < s->space->n_field; f++)
+        if (s->gauge.free[f] && !has_constant(s, f))
+            holds = s->gauge.free[f] = 0;
+    return holds;
+}
+
 void gauge_project(newton_system *s, double *residual)
 {
     const space *sp = s->space;

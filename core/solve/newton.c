@@ -3,14 +3,19 @@
  * Newton's method with backtracking.
  *
  * A field has converged when |r_f| <= tolerance * scale_f.  The scale is what the rows of the
- * field add up before they cancel, | |J| x~ |, where x~_j = |x_j| + (|J| |x|)_j / |J_jj| also
- * counts the size that an unknown would have if nothing balanced its row: so a velocity that
- * is zero in the end is measured by the forces that might have moved it. */
+ * field add up before they cancel, | |J| x~ |, x~ the size of the unknowns; a field that vanishes has the
+ * size (|J| |x|)_j / |J_jj| that nothing balancing its row would give it: so a velocity that is zero
+ * in the end is measured by the forces that might have moved it.  The last step must have been small, too. */
 #include "solve/solve.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+/* A field below this, relative to what its equations might make of it, is zero but for round-off. */
+#define VANISHES 1e-12
+/* Newton goes on until its last step was smaller than this, relative to the field: what is left is its square. */
+#define LAST_STEP 1e-4
 
 int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_spec, const pf_solver *solver,
                   int n_thread, error *err)
@@ -54,14 +59,24 @@ static int evaluate(newton_system *s, const newton_time *time, const double *x, 
     return status;
 }
 
+int newton_residual(newton_system *s, const newton_time *time, const double *x, double *residual, error *err)
+{
+    TRY(evaluate(s, time, x, 0, 0, err));
+    memcpy(residual, s->residual, (size_t)s->space->n_dof * sizeof *residual);
+    return 0;
+}
+
 /* scale[f] as above, from the matrix at x. */
 static void field_scales(newton_system *s, const double *x, double *scale)
 {
     const space *sp = s->space;
     const double *a = s->linear.value;
-    double *size = s->scale;
+    double *size = s->scale, most[SPACE_MAX_FIELDS] = {0}, might[SPACE_MAX_FIELDS] = {0},
+           mean[SPACE_MAX_FIELDS] = {0};
+    int64_t n[SPACE_MAX_FIELDS] = {0};
 
     for (int64_t i = 0; i < sp->n_free; i++) {
+        int f = sp->dof_field[sp->dof_of[i]];
         double sum = fabs(s->residual[sp->dof_of[i]]), diagonal = 0, largest = 0;
 
         for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++) {
@@ -70,19 +85,50 @@ static void field_scales(newton_system *s, const double *x, double *scale)
             if (sp->col[k] == i)
                 diagonal = fabs(a[k]);
         }
-        size[i] = fabs(x[sp->dof_of[i]]) + (diagonal > 1e-8 * largest ? sum / diagonal : 0);
+        size[i] = diagonal > 1e-8 * largest ? sum / diagonal : 0;
+        most[f] = fmax(most[f], fabs(x[sp->dof_of[i]]));
+        might[f] = fmax(might[f], size[i]);
     }
-    for (int f = 0; f < sp->n_field; f++)
+    for (int64_t i = 0; i < sp->n_free; i++) {
+        int f = sp->dof_field[sp->dof_of[i]];
+
+        size[i] = fabs(x[sp->dof_of[i]]) + (most[f] < VANISHES * might[f] ? size[i] : 0);
+        mean[f] += size[i] * size[i];
+        n[f]++;
+    }
+    for (int f = 0; f < sp->n_field; f++) {
+        s->vanishes[f] = most[f] < VANISHES * might[f] || most[f] == 0;
+        mean[f] = n[f] ? sqrt(mean[f] / (double)n[f]) : 0; /* no component counts for less than this */
         scale[f] = 0;
+    }
     for (int64_t i = 0; i < sp->n_free; i++) {
         double sum = 0;
 
         for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++)
-            sum += fabs(a[k]) * size[sp->col[k]];
+            sum += fabs(a[k]) * fmax(size[sp->col[k]], mean[sp->dof_field[sp->dof_of[sp->col[k]]]]);
         scale[sp->dof_field[sp->dof_of[i]]] += sum * sum;
     }
     for (int f = 0; f < sp->n_field; f++)
         scale[f] = sqrt(scale[f]);
+}
+
+/* Largest relative change of a field by the last step; fields that vanish do not count. */
+static double field_change(const newton_system *s, const double *x, double length)
+{
+    const space *sp = s->space;
+    double step[SPACE_MAX_FIELDS] = {0}, size[SPACE_MAX_FIELDS] = {0}, largest = 0;
+
+    for (int64_t i = 0; i < sp->n_free; i++) {
+        int f = sp->dof_field[sp->dof_of[i]];
+        double v = x[sp->dof_of[i]], d = length * s->step[i];
+
+        step[f] += d * d;
+        size[f] += v * v;
+    }
+    for (int f = 0; f < sp->n_field; f++)
+        if (!s->vanishes[f] && size[f] > 0 && !s->gauge.free[f] && sp->field[f].support != PF_IN_PARTICLES)
+            largest = fmax(largest, sqrt(step[f] / size[f]));
+    return largest;
 }
 
 /* Scaled residual of each field; returns the largest. */
@@ -173,8 +219,12 @@ static int line_search(newton_system *s, const newton_time *time, const double *
 /* Names who put the NaN there. */
 static int explain_nan(newton_system *s, const newton_time *time, const double *x, error *err)
 {
-    TRY(evaluate(s, time, x, 0, 1, err));
-    return error_set(err, ERR_CONVERGE, "the residual is not a finite number");
+    int status = evaluate(s, time, x, 0, 1, err);
+
+    if (!status)
+        status = error_set(err, ERR_CONVERGE, "the residual is not a finite number");
+    err->retry = time->history != NULL; /* a smaller step may avoid it */
+    return status;
 }
 
 /* Order and ratio at the last iteration that is above round-off. */
@@ -210,14 +260,24 @@ int newton_solve(newton_system *s, const newton_time *time, const newton_options
         field_scales(s, x, scale);
         report->iterations = k;
         report->history[k] = field_norms(s, scale, report->norm);
-        if (!isfinite(report->history[k]))
-            return explain_nan(s, time, x, err);
+        if (!isfinite(report->history[k])) {
+            status = explain_nan(s, time, x, err);
+            if (!err->retry)
+                return status;
+            snprintf(report->why, sizeof report->why, "%.280s", err->text);
+            return 0;
+        }
         if (s->talk)
             s->talk(s->talk_ctx, k, report->history[k], report->norm, length);
-        if (report->history[k] <= o->tolerance) {
+        if (report->history[k] <= o->tolerance && (k == 0 || field_change(s, x, length) <= LAST_STEP) &&
+            gauge_holds(s)) {
             report->converged = 1;
             if (o->linear_tolerance == 0 && k > 0 && report->history[k] > 1e-15)
                 TRY(polish(s, time, scale, x, report->norm, err));
+            break;
+        }
+        if (s->stop && *s->stop) {
+            snprintf(report->why, sizeof report->why, "stopped by a signal");
             break;
         }
         if (k >= o->max_iterations || k >= NEWTON_MAX_ITERATIONS || stalled) {

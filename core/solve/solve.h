@@ -8,6 +8,8 @@
 
 #include <plugflow/solver.h>
 
+#include <signal.h>
+
 /* --- linear (linear.c) --- */
 
 typedef struct linear_stats {
@@ -65,6 +67,7 @@ typedef struct newton_options {
 
 typedef struct newton_report {
     int iterations, converged;
+    int total;                                 /* iterations of all solves of a continuation */
     double norm[SPACE_MAX_FIELDS];             /* scaled residual of each field, last  */
     double history[NEWTON_MAX_ITERATIONS + 1]; /* largest of them, per iteration        */
     double ratio;                              /* r_{k+1} / r_k^2 of the last iterations */
@@ -87,12 +90,16 @@ typedef struct newton_system {
     gauge gauge;
     double *residual, *trial, *step, *rhs, *scale, *work; /* [n_dof] */
     double assemble_seconds;
+    int vanishes[SPACE_MAX_FIELDS];    /* the field is zero but for round-off */
+    const volatile sig_atomic_t *stop; /* not NULL and not 0: end soon        */
     newton_talk *talk;
     void *talk_ctx;
     arena memory;
 } newton_system;
 
 int gauge_detect(newton_system *s, error *err);
+/* Whether the constants found are still free with the matrix of now; forgets those that are not. */
+int gauge_holds(newton_system *s);
 void gauge_project(newton_system *s, double *residual); /* takes the inconsistent part out */
 void gauge_pin(newton_system *s);                       /* changes the matrix              */
 void gauge_zero_mean(const newton_system *s, double *x);
@@ -108,6 +115,9 @@ typedef struct newton_time {
     double t, dt, shift;
     const double *history, *old; /* NULL: steady */
 } newton_time;
+
+/* The residual of all rows at x, as it is (reactions at prescribed unknowns). */
+int newton_residual(newton_system *s, const newton_time *time, const double *x, double *residual, error *err);
 
 /* 0 also when it does not converge (see report); an error only if going on makes no sense. */
 int newton_solve(newton_system *s, const newton_time *time, const newton_options *o, double *x,
@@ -130,6 +140,11 @@ int continuation_solve(newton_system *s, continuation *c, const newton_options *
 
 /* --- time (time.c) --- */
 
+/* Moving bodies: what the stepper asks for.  Slots 0 and 1 hold places to come back to. */
+enum move { MOVE_REMEMBER, MOVE_RESTORE, MOVE_PREDICT, MOVE_PLACE };
+/* Places = remembered + dt/2 (u0 + u1); PREDICT also cuts the cells anew and zeroes in u1 what is off. */
+typedef int move_fn(void *ctx, enum move what, int slot, double dt, const double *u0, double *u1, error *err);
+
 typedef int dirichlet_fn(void *ctx, double t, double *x, error *err);
 
 typedef struct stepper {
@@ -137,10 +152,13 @@ typedef struct stepper {
     int order; /* 1: BDF1, 2: BDF2 */
     double t, dt_previous;
     int n_history;
-    double *x, *before, *history, *save[3]; /* [n_dof] */
+    double *x, *before, *history, *save[4]; /* [n_dof] */
+    double *residual;                       /* [n_dof] of all rows, pressure with zero mean: reactions */
     newton_options options;
     dirichlet_fn *dirichlet;
     void *dirichlet_ctx;
+    move_fn *move; /* NULL: nothing moves */
+    double shift;  /* of the last step     */
     newton_report report;
     int newton_iterations, n_steps, n_halved;
     arena memory;

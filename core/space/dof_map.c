@@ -16,8 +16,8 @@ int space_find_field(const space *s, const char *name)
 int space_add_field(space *s, int dim, const pf_field *f, const char *plugin, error *err)
 {
     int i = space_find_field(s, f->name);
-    space_field *g = &s->field[i];
-    int order = f->support == PF_ON_MESH ? (int)f->order : 0;
+    space_field *g = &s->field[i < 0 ? 0 : i];
+    int order = f->support == PF_ON_MESH || f->support == PF_IN_PARTICLES ? (int)f->order : 0;
 
     if (i >= 0) {
         if (g->shape != (int)f->shape || g->order != order || g->support != (int)f->support)
@@ -29,10 +29,6 @@ int space_add_field(space *s, int dim, const pf_field *f, const char *plugin, er
                 f->shape == PF_VECTOR ? "vector" : "scalar", order);
         return 0;
     }
-    if (f->support == PF_ON_PARTICLE)
-        return error_set(err, ERR_PLUGIN,
-                         "field \"%s\" of plugin \"%s\" lives on particles, which this version does not have yet",
-                         f->name, plugin);
     if (s->n_field == SPACE_MAX_FIELDS)
         return error_set(err, ERR_PLUGIN, "field \"%s\" of plugin \"%s\": more than %d fields", f->name, plugin,
                          SPACE_MAX_FIELDS);
@@ -43,21 +39,33 @@ int space_add_field(space *s, int dim, const pf_field *f, const char *plugin, er
         .reaction = f->reaction,
         .reaction_unit = f->reaction_unit ? f->reaction_unit : "",
         .declared_by = plugin,
+        .constrains = f->constrains,
         .shape = (int)f->shape,
-        .n_comp = f->shape == PF_VECTOR ? dim : 1,
+        .n_comp = f->shape == PF_VECTOR             ? dim
+                  : f->shape == PF_SPIN && dim == 3 ? 3
+                                                    : 1,
         .order = order,
         .support = (int)f->support,
     };
     return 0;
 }
 
-int32_t space_carrier(const space *s, int64_t cell, int i)
+int64_t space_groups(const space *s)
+{
+    return s->mesh->n_cell + s->n_attached;
+}
+
+int32_t space_carrier(const space *s, int64_t group, int i)
 {
     const mesh *m = s->mesh;
+    int64_t attached = group - m->n_cell, cell = attached >= 0 ? s->attached_cell[attached] : group;
     int32_t node;
 
-    if (i >= m->type->n_node)
-        return (int32_t)m->n_node;
+    if (i >= m->type->n_node) {
+        if (i == m->type->n_node && s->any_problem)
+            return (int32_t)m->n_node;
+        return attached >= 0 ? (int32_t)m->n_node + 1 + s->attached_particle[attached] : -1;
+    }
     node = m->cell[cell * m->type->n_node + i];
     if (m->master)
         while (m->master[node] != node)
@@ -86,13 +94,12 @@ static int mark_carriers(space *s, uint8_t *order, error *err)
 int space_number(space *s, mesh *m, error *err)
 {
     uint8_t *order;
-    int any_problem = 0;
 
     s->mesh = m;
-    s->n_carrier = m->n_node + 1;
+    s->n_carrier = m->n_node + 1 + s->n_particle;
     for (int f = 0; f < s->n_field; f++)
-        any_problem |= s->field[f].support == PF_ON_PROBLEM;
-    s->cell_carriers = m->type->n_node + any_problem;
+        s->any_problem |= s->field[f].support == PF_ON_PROBLEM;
+    s->cell_carriers = m->type->n_node + s->any_problem + (s->n_particle > 0);
     ARENA_NEW(&s->memory, order, s->n_carrier, err);
     TRY(mark_carriers(s, order, err));
     for (int pass = 0; pass < 2; pass++) {
@@ -101,7 +108,9 @@ int space_number(space *s, mesh *m, error *err)
         for (int64_t c = 0; c < s->n_carrier; c++)
             for (int f = 0; f < s->n_field; f++) {
                 const space_field *g = &s->field[f];
-                int here = g->support == PF_ON_PROBLEM ? c == m->n_node : c < m->n_node && (order[c] & g->order);
+                int here = g->support == PF_ON_PROBLEM    ? c == m->n_node
+                           : g->support == PF_ON_PARTICLE ? c > m->n_node
+                                                          : c < m->n_node && (order[c] & g->order);
 
                 if (!here)
                     continue;
@@ -123,6 +132,7 @@ int space_number(space *s, mesh *m, error *err)
         ARENA_NEW(&s->memory, s->dof_comp, n, err);
         ARENA_NEW(&s->memory, s->dof_node, n, err);
         ARENA_NEW(&s->memory, s->fixed, n, err);
+        ARENA_NEW(&s->memory, s->idle, n, err);
     }
     /* Nodes that share a master show its unknowns. */
     for (int64_t c = 0; m->master && c < m->n_node; c++) {
@@ -138,6 +148,7 @@ int space_number(space *s, mesh *m, error *err)
 
 void space_destroy(space *s)
 {
+    arena_free(&s->pattern_memory);
     arena_free(&s->memory);
     memset(s, 0, sizeof *s);
 }

@@ -18,14 +18,14 @@ static int number_free(space *s, error *err)
 {
     int64_t n = 0, groups = 0;
 
-    ARENA_NEW(&s->memory, s->free_of, s->n_dof, err);
-    ARENA_NEW(&s->memory, s->node_free, s->n_carrier + 1, err);
+    ARENA_NEW(&s->pattern_memory, s->free_of, s->n_dof, err);
+    ARENA_NEW(&s->pattern_memory, s->node_free, s->n_carrier + 1, err);
     for (int64_t d = 0; d < s->n_dof; d++)
         s->free_of[d] = s->fixed[d] ? -1 : (int32_t)n++;
     s->n_free = n;
     if (n == 0)
         return error_set(err, ERR_CASE, "no unknown is left: boundary conditions fix all of them; refine the mesh");
-    ARENA_NEW(&s->memory, s->dof_of, n, err);
+    ARENA_NEW(&s->pattern_memory, s->dof_of, n, err);
     for (int64_t d = 0; d < s->n_dof; d++)
         if (s->free_of[d] >= 0) {
             s->dof_of[s->free_of[d]] = (int32_t)d;
@@ -35,7 +35,7 @@ static int number_free(space *s, error *err)
         groups += s->node_free[c + 1] > 0;
         s->node_free[c + 1] += s->node_free[c];
     }
-    ARENA_NEW(&s->memory, s->row_node, groups + 1, err);
+    ARENA_NEW(&s->pattern_memory, s->row_node, groups + 1, err);
     s->n_row_node = 0;
     for (int64_t c = 0; c < s->n_carrier; c++)
         if (s->node_free[c + 1] > s->node_free[c])
@@ -44,21 +44,23 @@ static int number_free(space *s, error *err)
     return 0;
 }
 
-/* Cells of each carrier, in compressed lists. */
-static int cells_of_carriers(space *s, int64_t **start, int32_t **cell, error *err)
+/* Groups of each carrier, in compressed lists. */
+static int groups_of_carriers(space *s, int64_t **start, int32_t **cell, error *err)
 {
-    const mesh *m = s->mesh;
+    int64_t n = space_groups(s);
 
     ARENA_NEW(&s->memory, *start, s->n_carrier + 2, err);
-    ARENA_NEW(&s->memory, *cell, m->n_cell * s->cell_carriers, err);
-    for (int64_t e = 0; e < m->n_cell; e++)
+    ARENA_NEW(&s->memory, *cell, n * s->cell_carriers, err);
+    for (int64_t e = 0; e < n; e++)
         for (int i = 0; i < s->cell_carriers; i++)
-            (*start)[space_carrier(s, e, i) + 2]++;
+            if (space_carrier(s, e, i) >= 0)
+                (*start)[space_carrier(s, e, i) + 2]++;
     for (int64_t c = 0; c <= s->n_carrier; c++)
         (*start)[c + 1] += (*start)[c];
-    for (int64_t e = 0; e < m->n_cell; e++)
+    for (int64_t e = 0; e < n; e++)
         for (int i = 0; i < s->cell_carriers; i++)
-            (*cell)[(*start)[space_carrier(s, e, i) + 1]++] = (int32_t)e;
+            if (space_carrier(s, e, i) >= 0)
+                (*cell)[(*start)[space_carrier(s, e, i) + 1]++] = (int32_t)e;
     return 0;
 }
 
@@ -72,7 +74,7 @@ static int64_t neighbours(const space *s, const int64_t *start, const int32_t *c
         for (int i = 0; i < s->cell_carriers; i++) {
             int32_t j = space_carrier(s, cell[k], i);
 
-            if (seen[j] || s->node_free[j + 1] == s->node_free[j])
+            if (j < 0 || seen[j] || s->node_free[j + 1] == s->node_free[j])
                 continue;
             seen[j] = 1;
             list[n++] = j;
@@ -91,13 +93,15 @@ static void locate_pairs(space *s, const int64_t *start, const int32_t *cell, in
     for (int64_t k = start[c]; k < start[c + 1]; k++)
         for (int i = 0; i < nc; i++)
             if (space_carrier(s, cell[k], i) == c)
-                for (int j = 0; j < nc; j++)
-                    s->pair[((int64_t)cell[k] * nc + i) * nc + j] = offset[space_carrier(s, cell[k], j)];
+                for (int j = 0; j < nc; j++) {
+                    int32_t other = space_carrier(s, cell[k], j);
+
+                    s->pair[((int64_t)cell[k] * nc + i) * nc + j] = other < 0 ? -1 : offset[other];
+                }
 }
 
 int space_constrain(space *s, error *err)
 {
-    const mesh *m = s->mesh;
     arena scratch = {0};
     arena keep;
     int64_t *start = NULL, entries = 0;
@@ -105,12 +109,13 @@ int space_constrain(space *s, error *err)
     uint8_t *seen;
     int status = 0;
 
+    arena_free(&s->pattern_memory);
     TRY(number_free(s, err));
-    ARENA_NEW(&s->memory, s->row, s->n_free + 1, err);
-    ARENA_NEW(&s->memory, s->pair, m->n_cell * s->cell_carriers * s->cell_carriers, err);
+    ARENA_NEW(&s->pattern_memory, s->row, s->n_free + 1, err);
+    ARENA_NEW(&s->pattern_memory, s->pair, space_groups(s) * s->cell_carriers * s->cell_carriers, err);
     keep = s->memory; /* what follows is needed only here */
     s->memory = scratch;
-    status = cells_of_carriers(s, &start, &cell, err);
+    status = groups_of_carriers(s, &start, &cell, err);
     list = arena_alloc(&s->memory, (size_t)s->n_carrier, sizeof *list);
     offset = arena_alloc(&s->memory, (size_t)s->n_carrier, sizeof *offset);
     seen = arena_alloc(&s->memory, (size_t)s->n_carrier, 1);
@@ -144,7 +149,7 @@ int space_constrain(space *s, error *err)
                 offset[list[k]] = -1;
         }
         s->row[s->n_free] = entries = at;
-        if (!pass && !(s->col = arena_alloc(&s->memory, (size_t)entries, sizeof *s->col)))
+        if (!pass && !(s->col = arena_alloc(&s->pattern_memory, (size_t)entries, sizeof *s->col)))
             status = error_memory(err, "matrix pattern", 8.0 * (double)entries);
     }
     arena_free(&scratch);

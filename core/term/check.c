@@ -135,8 +135,8 @@ static int check_slots(const term_plugin *p, const pf_slot *slot, uint32_t n, in
         if (term_slot_shape(slot[i].eval, f->shape) != slot[i].shape)
             return wrong(err, s, "%s slot \"%s\": the %s of field \"%s\" has another shape than the slot says",
                          side, slot[i].name, term_eval_name(slot[i].eval), f->name);
-        if (f->support != PF_ON_MESH && slot[i].eval != PF_VALUE && slot[i].eval != PF_DOT &&
-            slot[i].eval != PF_OLD)
+        if (f->support != PF_ON_MESH && f->support != PF_IN_PARTICLES && slot[i].eval != PF_VALUE &&
+            slot[i].eval != PF_DOT && slot[i].eval != PF_OLD)
             return wrong(err, s, "%s slot \"%s\": field \"%s\" does not live on the mesh and has no %s", side,
                          slot[i].name, f->name, term_eval_name(slot[i].eval));
     }
@@ -180,7 +180,7 @@ static int check_term(const term_plugin *p, const pf_term *t, const struct subje
         return wrong(err, s, "lacks doc (its weak form) or cite (where the equation stands)");
     if (t->where < PF_CELL || t->where > PF_PAIR)
         return wrong(err, s, "acts on unknown points, where = %u", t->where);
-    if (t->where != PF_CELL && t->where != PF_FLUID && t->where != PF_FACET)
+    if (t->where != PF_CELL && t->where != PF_FLUID && t->where != PF_FACET && t->where != PF_SOLID)
         return wrong(err, s, "acts on %s points, which this version does not feed yet", term_where_name(t->where));
     if (!t->residual)
         return wrong(err, s, "has no residual function");
@@ -250,9 +250,10 @@ static int check_fields(const term_plugin *p, const struct subject *s, error *er
 
         if (!is_name(f->name))
             return wrong(err, s, "a field has no proper name (letters, digits, _)");
-        if (f->shape != PF_SCALAR && f->shape != PF_VECTOR)
+        if (f->shape != PF_SCALAR && f->shape != PF_VECTOR &&
+            !(f->shape == PF_SPIN && f->support == PF_ON_PARTICLE))
             return wrong(err, s, "field \"%s\" must be PF_SCALAR or PF_VECTOR", f->name);
-        if (f->support > PF_ON_PARTICLE || (f->support == PF_ON_MESH && f->order != 1 && f->order != 2))
+        if (f->support > PF_IN_PARTICLES || (f->support % 3 == PF_ON_MESH && f->order != 1 && f->order != 2))
             return wrong(err, s, "field \"%s\": order %u, support %u; order 1 or 2 on the mesh is possible",
                          f->name, f->order, f->support);
         for (uint32_t k = 0; k < i; k++)

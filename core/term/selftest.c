@@ -23,7 +23,8 @@ typedef struct bench {
     void *params;
     double *in[TERM_MAX_SLOTS], *out[TERM_MAX_SLOTS], *again[TERM_MAX_SLOTS];
     double *jac[TERM_MAX_SLOTS * TERM_MAX_SLOTS], *truth[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
-    double *x, *normal, *h;
+    double *x, *normal, *h, *arm, *density;
+    int32_t *id;
     void *room;
     term_report report;
     pf_batch b;
@@ -105,6 +106,9 @@ static int bench_create(bench *k, selftest *s, const term_plugin *p, const pf_te
     ARENA_NEW(&k->memory, k->x, 3 * LD, err);
     ARENA_NEW(&k->memory, k->normal, 3 * LD, err);
     ARENA_NEW(&k->memory, k->h, LD, err);
+    ARENA_NEW(&k->memory, k->arm, 3 * LD, err);
+    ARENA_NEW(&k->memory, k->density, LD, err);
+    ARENA_NEW(&k->memory, k->id, LD, err);
     k->params = arena_alloc(&k->memory, t->params_bytes + 1, 1);
     k->room = arena_alloc(&k->memory, term_jacobian_room(t, dim, LD) + 64, 1);
     k->b.scratch = arena_alloc(&k->memory, t->scratch_bytes + 1, 1);
@@ -127,7 +131,9 @@ static int bench_create(bench *k, selftest *s, const term_plugin *p, const pf_te
         k->normal[i] = i / LD == 0 ? 0.6 : i / LD == 1 ? (dim == 2 ? -0.8 : 0.48) : 0.64;
     }
     for (int i = 0; i < LD; i++)
-        k->h[i] = 0.1 + 0.01 * i;
+        k->h[i] = 0.1 + 0.01 * i, k->density[i] = 2 + 0.1 * i;
+    for (int i = 0; i < 3 * LD; i++)
+        k->arm[i] = random_number(k);
     place_params(k);
     random_inputs(k);
     k->report = (term_report){.plugin = p->d.name, .term = t->name};
@@ -141,6 +147,9 @@ static int bench_create(bench *k, selftest *s, const term_plugin *p, const pf_te
                       .x = k->x,
                       .normal = t->where == PF_FACET ? k->normal : NULL,
                       .h = k->h,
+                      .arm = t->where == PF_SOLID ? k->arm : NULL,
+                      .density = t->where == PF_SOLID ? k->density : NULL,
+                      .id = t->where == PF_SOLID ? k->id : NULL,
                       .params = k->params,
                       .scratch = k->b.scratch,
                       .kernel = &k->report};
@@ -260,8 +269,12 @@ static void test_batches(bench *k)
     for (uint32_t i = 0; i < k->t->n_in; i++)
         for (int c = 0; c < comps(k, &k->t->in[i]); c++)
             reverse(k->in[i] + c * LD);
-    for (int c = 0; c < 4; c++)
-        reverse(c < 3 ? k->x + c * LD : k->h);
+    for (int c = 0; c < 3; c++) {
+        reverse(k->x + c * LD);
+        reverse(k->arm + c * LD);
+    }
+    reverse(k->h);
+    reverse(k->density);
     if (!same_values(k, LD))
         return;
     for (uint32_t i = 0; i < k->t->n_in; i++)

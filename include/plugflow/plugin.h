@@ -24,7 +24,7 @@ typedef double _Complex pf_complex;
 #endif
 
 #define PF_ABI_MAJOR 1u /* differs: refused                                            */
-#define PF_ABI_MINOR 0u /* plugin newer than kernel: loads if its min_minor allows     */
+#define PF_ABI_MINOR 1u /* plugin newer than kernel: loads if its min_minor allows     */
 #define PF_LANES     8u /* ld is a multiple of it; arrays are 64-byte aligned          */
 #define PF_SIZES     ((uint32_t)(sizeof(double) << 16 | sizeof(void *) << 8 | sizeof(size_t)))
 
@@ -77,9 +77,10 @@ typedef struct pf_slot {
 
 /* Where the values of a field live. */
 enum pf_support {
-    PF_ON_MESH = 0,    /* nodes of the mesh, continuous                                */
-    PF_ON_PROBLEM = 1, /* one value (or vector) for the whole problem                  */
-    PF_ON_PARTICLE = 2 /* one value (or vector) per particle                           */
+    PF_ON_MESH = 0,     /* nodes of the mesh, continuous                                */
+    PF_ON_PROBLEM = 1,  /* one value (or vector) for the whole problem                  */
+    PF_ON_PARTICLE = 2, /* one value (vector, spin) per particle                       */
+    PF_IN_PARTICLES = 3 /* nodes of the mesh that particles cover (the active set)      */
 };
 
 /* A field.  Several plugins may declare the same one; shape, order and support must agree, texts are
@@ -89,11 +90,12 @@ enum pf_support {
 typedef struct pf_field {
     const char *name;          /* "u"; the key in boundary{}, initial{}, output{}    */
     const char *unit, *doc;    /* "m/s", "velocity"                                  */
-    uint32_t shape;            /* PF_SCALAR or PF_VECTOR                             */
+    uint32_t shape;            /* PF_SCALAR, PF_VECTOR; on particles also PF_SPIN     */
     uint32_t order;            /* 1 or 2: polynomial order; ignored off the mesh     */
     uint32_t support;          /* enum pf_support                                    */
     const char *reaction;      /* what its boundary reaction is: "force", "heat"; or NULL */
-    const char *reaction_unit; /* "N"                                                */
+    const char *reaction_unit; /* "N"                                                     */
+    const char *constrains;    /* PF_IN_PARTICLES: the field it holds; off where that one is prescribed (1.1) */
 } pf_field;
 
 enum pf_type {
@@ -127,6 +129,8 @@ typedef struct pf_batch {
     const void *params;             /* the term's own struct                              */
     void *scratch;                  /* scratch_bytes, private to this thread              */
     void *kernel;                   /* the kernel's own; pass the batch on to host->fail  */
+    const double *density;          /* [ld] of the particle, PF_SOLID (1.1)                    */
+    const int32_t *id;              /* [ld] of the particle, from 0, PF_SOLID (1.1)            */
 } pf_batch;
 
 /* in[k], out[k]: [component][ld] of slot k.  The residual assigns every output.
@@ -146,14 +150,16 @@ typedef struct pf_example {
 } pf_example;
 
 enum pf_term_flag {
-    PF_LINEAR = 1,       /* the residual is linear (affine) in the unknown slots; tested       */
-    PF_OPTIONAL = 2,     /* off unless its own line, term "plugin.name" {}, switches it on      */
+    PF_LINEAR = 1,   /* the residual is linear (affine) in the unknown slots; tested       */
+    PF_OPTIONAL = 2, /* off unless its own line, term "plugin.name" {}, switches it on      */
     /* Faded in from 0 to 1 when a steady case does not converge; all such terms of all plugins share one
      * factor, so flag what makes the problem nonlinear and what drives it. */
     PF_CONTINUATION = 4,
     /* PF_FACET: on where a boundary line has the name of its PF_DATA slot as a key:
      * boundary "left" { heat_flux = 3 } */
-    PF_BY_BOUNDARY = 8
+    PF_BY_BOUNDARY = 8,
+    /* PF_SOLID: its rows of particle fields, with the sign changed, are what the fluid does to the body (1.1) */
+    PF_FLUID_FORCE = 16
 };
 
 typedef struct pf_term {

@@ -3,5 +3,5 @@
  * twin_complex.h -- see twin_real.h. */
 #undef NUM
 #undef F
-#define NUM       pf_complex
+#define NUM     pf_complex
 #define F(name) name##_complex

@@ -17,5 +17,5 @@
 #endif
 #undef NUM
 #undef F
-#define NUM       double
+#define NUM     double
 #define F(name) name##_real

@@ -3,6 +3,11 @@
  * Conservation of volume, div u = 0 (appendix A.1-A.6).  The equation stands in equations.h. */
 #include <plugflow/plugin.h>
 
+struct smoothing {
+    double density, viscosity; /* of the fluid, kg/m^3, Pa s */
+    double epsilon;
+};
+
 #include <plugflow/twin_real.h>
 #include "equations.h"
 #include <plugflow/twin_complex.h>
@@ -36,7 +41,7 @@ static const pf_example examples[] = {{"div u = 3", 2, NULL, (double[]){3}, (dou
 static const pf_term divergence = {
     .size = sizeof(pf_term),
     .flags = PF_LINEAR,
-    .where = PF_FLUID,
+    .where = PF_CELL,
     .name = "divergence",
     .doc = "q\\,\\nabla\\cdot u",
     .cite = "appendix A.1-A.6",
@@ -53,7 +58,57 @@ static const pf_term divergence = {
     .jacobian = divergence_jacobian,
 };
 
-static const pf_term *const terms[] = {&divergence};
+static const pf_param smoothing_params[] = {
+    {.name = "density",
+     .unit = "kg/m^3",
+     .doc = "mass per volume",
+     .type = PF_T_REAL,
+     .flags = PF_REQUIRED | PF_SHARED,
+     .offset = offsetof(struct smoothing, density),
+     .min = 0,
+     .max = 1e30},
+    {.name = "viscosity",
+     .unit = "Pa s",
+     .doc = "dynamic viscosity",
+     .type = PF_T_REAL,
+     .flags = PF_REQUIRED | PF_SHARED,
+     .offset = offsetof(struct smoothing, viscosity),
+     .min = 0,
+     .max = 1e30},
+    {.name = "epsilon",
+     .unit = "1",
+     .doc = "strength of the smoothing; 0.02 to 0.1",
+     .type = PF_T_REAL,
+     .offset = offsetof(struct smoothing, epsilon),
+     .dflt = 0.05,
+     .min = 0,
+     .max = 10},
+};
+
+static const pf_slot grad_p[] = {{"grad_p", "p", PF_GRAD, PF_VECTOR}};
+static const pf_slot grad_q[] = {{"grad_q", "p", PF_GRAD, PF_VECTOR}};
+
+static const pf_term pressure_smoothing = {
+    .size = sizeof(pf_term),
+    .flags = PF_LINEAR | PF_OPTIONAL,
+    .where = PF_SOLID,
+    .name = "pressure_smoothing",
+    .doc = "\\epsilon h^2/(\\mu+\\rho h^2/\\Delta t)\\,\\nabla p\\cdot\\nabla q",
+    .cite = "numerics 4",
+    .in = grad_p,
+    .n_in = 1,
+    .out = grad_q,
+    .n_out = 1,
+    .slot_size = sizeof(pf_slot),
+    .param = smoothing_params,
+    .n_param = 3,
+    .param_size = sizeof(pf_param),
+    .params_bytes = sizeof(struct smoothing),
+    .residual = pressure_smoothing_real,
+    .residual_c = pressure_smoothing_complex,
+};
+
+static const pf_term *const terms[] = {&divergence, &pressure_smoothing};
 
 static const pf_plugin continuity = {
     .size = sizeof(pf_plugin),
@@ -66,7 +121,7 @@ static const pf_plugin continuity = {
     .license = "GPL-3.0-or-later",
     .doc = "conservation of volume",
     .term = terms,
-    .n_term = 1,
+    .n_term = 2,
     .field = fields,
     .n_field = 2,
     .field_size = sizeof(pf_field),

@@ -53,7 +53,7 @@ static int F(stress)(const pf_batch *b, const NUM *const *in, NUM *const *out)
     return PF_OK;
 }
 
-/* -(rho g + f) . v */
+/* -(rho g + f) . v; without rho g if p is the reduced pressure */
 static int F(body_force)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct fluid *f = b->params;
@@ -62,7 +62,7 @@ static int F(body_force)(const pf_batch *b, const NUM *const *in, NUM *const *ou
 
     for (uint32_t a = 0; a < b->dim; a++)
         PF_LANES_OF (b, i)
-            v[a * LD + i] = -(f->density * f->gravity[a] + force[a * LD + i]);
+            v[a * LD + i] = -((f->reduced ? 0 : f->density * f->gravity[a]) + force[a * LD + i]);
     return PF_OK;
 }
 

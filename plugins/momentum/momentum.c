@@ -12,6 +12,7 @@ struct fluid {
     double density;    /* rho, kg/m^3 */
     double viscosity;  /* mu, Pa s    */
     double gravity[3]; /* g, m/s^2    */
+    int reduced;       /* 1: p is the pressure without rho g.x, so gravity is no force */
 };
 
 #include <plugflow/twin_real.h>
@@ -89,6 +90,12 @@ static const pf_param fluid_params[] = {
      .type = PF_T_VECTOR,
      .flags = PF_SHARED,
      .offset = offsetof(struct fluid, gravity)},
+    {.name = "reduced_pressure",
+     .unit = "1",
+     .doc = "p without its hydrostatic part rho g.x",
+     .type = PF_T_BOOL,
+     .flags = PF_SHARED,
+     .offset = offsetof(struct fluid, reduced)},
 };
 
 static const pf_field fields[] = {
@@ -111,7 +118,7 @@ static const pf_slot v[] = {{"v", "u", PF_VALUE, PF_VECTOR}};
 static const pf_slot grad_v[] = {{"grad_v", "u", PF_GRAD, PF_TENSOR}};
 
 /* One point, worked out by hand: rho = 2, mu = 3, g = (0, -10). */
-static const double params_2d[] = {2, 3, 0, -10};
+static const double params_2d[] = {2, 3, 0, -10, 0};
 static const pf_example inertia_2d[] = {
     {"u_t = (1, -2)", 2, params_2d, (double[]){1, -2}, (double[]){2, -4}, 1e-15}};
 static const pf_example convection_2d[] = {{"u = (1, 2), grad u = (3 4; 5 6): rho (1*3 + 2*4, 1*5 + 2*6)", 2,
@@ -134,7 +141,7 @@ static const pf_example traction_2d[] = {{"t = (1, 2)", 2, params_2d, (double[])
                                  .n_out = 1,                                                                       \
                                  .slot_size = sizeof(pf_slot),                                                     \
                                  .param = fluid_params,                                                            \
-                                 .n_param = 3,                                                                     \
+                                 .n_param = 4,                                                                     \
                                  .param_size = sizeof(pf_param),                                                   \
                                  .params_bytes = sizeof(struct fluid),                                             \
                                  .example = NAME##_2d,                                                             \
@@ -144,13 +151,13 @@ static const pf_example traction_2d[] = {{"t = (1, 2)", 2, params_2d, (double[])
                                  .residual_c = NAME##_complex,                                                     \
                                  __VA_ARGS__}
 
-INTEGRATOR(inertia, PF_FLUID, "\\rho\\,\\partial_t u\\cdot v", u_t, 1, v, .flags = PF_LINEAR,
+INTEGRATOR(inertia, PF_CELL, "\\rho\\,\\partial_t u\\cdot v", u_t, 1, v, .flags = PF_LINEAR,
            .jacobian = inertia_jacobian);
-INTEGRATOR(convection, PF_FLUID, "\\rho\\,(u\\cdot\\nabla)u\\cdot v", u_grad_u, 2, v, .flags = PF_CONTINUATION,
+INTEGRATOR(convection, PF_CELL, "\\rho\\,(u\\cdot\\nabla)u\\cdot v", u_grad_u, 2, v, .flags = PF_CONTINUATION,
            .jacobian = convection_jacobian);
-INTEGRATOR(stress, PF_FLUID, "(2\\mu D(u)-p\\,I):\\nabla v", grad_u_p, 2, grad_v, .flags = PF_LINEAR,
+INTEGRATOR(stress, PF_CELL, "(2\\mu D(u)-p\\,I):\\nabla v", grad_u_p, 2, grad_v, .flags = PF_LINEAR,
            .jacobian = stress_jacobian);
-INTEGRATOR(body_force, PF_FLUID, "-(\\rho g+f)\\cdot v", force, 1, v, .flags = PF_LINEAR);
+INTEGRATOR(body_force, PF_CELL, "-(\\rho g+f)\\cdot v", force, 1, v, .flags = PF_LINEAR);
 INTEGRATOR(traction, PF_FACET, "-t\\cdot v", traction_data, 1, v, .flags = PF_LINEAR | PF_BY_BOUNDARY);
 
 static const pf_term *const terms[] = {&inertia, &convection, &stress, &body_force, &traction};

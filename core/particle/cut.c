@@ -1,0 +1,325 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The part of a cell inside a body.  Points of a fine rule on the cell are inside or not; what is
+ * inside is projected on a fixed set of points, w_q = sum_s w_s L_q(x_s), with L_q of degree 4, so
+ * that a cut cell costs no more than a whole one and products of two basis functions stay exact. */
+#include "particle/particle.h"
+
+#include <plugflow/mesh.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DEGREE = 4, SUBCELLS_2D = 8, SUBCELLS_3D = 4 };
+
+/* Value at s of the Lagrange polynomial i on the 5 Gauss points g. */
+static double lagrange(const double *g, int i, double s)
+{
+    double v = 1;
+
+    for (int k = 0; k <= DEGREE; k++)
+        if (k != i)
+            v *= (s - g[k]) / (g[i] - g[k]);
+    return v;
+}
+
+static const double gauss5[5] = {-0.90617984593866399280, -0.53846931010568309104, 0, 0.53846931010568309104,
+                                 0.90617984593866399280};
+
+/* Monomials up to degree 4 in dim variables. */
+static int monomials(int dim, const double *x, double *m)
+{
+    int n = 0;
+
+    for (int c = 0; c <= (dim == 3 ? DEGREE : 0); c++)
+        for (int b = 0; b + c <= DEGREE; b++)
+            for (int a = 0; a + b + c <= DEGREE; a++)
+                m[n++] = pow(x[0], a) * pow(x[1], b) * pow(dim == 3 ? x[2] : 0, c);
+    return n;
+}
+
+/* Gauss-Jordan with row pivoting on [a | 1]. */
+static int invert(double *a, int n)
+{
+    double *w = calloc((size_t)(2 * n * n), sizeof *w);
+
+    if (!w)
+        return 0;
+    for (int i = 0; i < n; i++) {
+        memcpy(w + i * 2 * n, a + i * n, (size_t)n * sizeof *a);
+        w[i * 2 * n + n + i] = 1;
+    }
+    for (int i = 0; i < n; i++) {
+        int best = i;
+
+        for (int r = i + 1; r < n; r++)
+            best = fabs(w[r * 2 * n + i]) > fabs(w[best * 2 * n + i]) ? r : best;
+        for (int c = 0; c < 2 * n && best != i; c++) {
+            double swap = w[i * 2 * n + c];
+
+            w[i * 2 * n + c] = w[best * 2 * n + c];
+            w[best * 2 * n + c] = swap;
+        }
+        for (int r = 0; r < n; r++) {
+            double f = r == i ? 0 : w[r * 2 * n + i] / w[i * 2 * n + i];
+
+            for (int c = 0; f != 0 && c < 2 * n; c++)
+                w[r * 2 * n + c] -= f * w[i * 2 * n + c];
+        }
+    }
+    for (int i = 0; i < n; i++)
+        for (int c = 0; c < n; c++)
+            a[i * n + c] = w[i * 2 * n + n + c] / w[i * 2 * n + i];
+    free(w);
+    return 1;
+}
+
+/* Interpolation points: 5 Gauss points a direction, or the lattice of degree 4 of a simplex. */
+static int place_points(cut_rule *r, error *err)
+{
+    int dim = r->type->dim;
+
+    r->n = 0;
+    if (!r->type->simplex) {
+        for (int c = 0; c < (dim == 3 ? 5 : 1); c++)
+            for (int b = 0; b < 5; b++)
+                for (int a = 0; a < 5; a++, r->n++) {
+                    r->x[r->n][0] = gauss5[a];
+                    r->x[r->n][1] = gauss5[b];
+                    r->x[r->n][2] = dim == 3 ? gauss5[c] : 0;
+                }
+        return 0;
+    }
+    for (int c = 0; c <= (dim == 3 ? DEGREE : 0); c++)
+        for (int b = 0; b + c <= DEGREE; b++)
+            for (int a = 0; a + b + c <= DEGREE; a++, r->n++) {
+                r->x[r->n][0] = a / (double)DEGREE;
+                r->x[r->n][1] = b / (double)DEGREE;
+                r->x[r->n][2] = c / (double)DEGREE;
+            }
+    ARENA_NEW(&r->memory, r->inverse, r->n * r->n, err);
+    for (int i = 0; i < r->n; i++)
+        monomials(dim, r->x[i], r->inverse + i * r->n);
+    return invert(r->inverse, r->n) ? 0 : error_memory(err, "cut rule", 0);
+}
+
+/* L_q at a point. */
+static void project(const cut_rule *r, const double *x, double *l)
+{
+    int dim = r->type->dim;
+    double m[CUT_MAX_POINTS];
+
+    if (r->type->simplex) {
+        monomials(dim, x, m);
+        for (int q = 0; q < r->n; q++) {
+            l[q] = 0;
+            for (int k = 0; k < r->n; k++)
+                l[q] += r->inverse[k * r->n + q] * m[k];
+        }
+        return;
+    }
+    for (int q = 0; q < r->n; q++)
+        l[q] = lagrange(gauss5, q % 5, x[0]) * lagrange(gauss5, q / 5 % 5, x[1]) *
+               (dim == 3 ? lagrange(gauss5, q / 25, x[2]) : 1);
+}
+
+/* Fine points: sub-cells with Gauss points in each. */
+static int place_fine(cut_rule *r, error *err)
+{
+    const fe_cell *c = r->type;
+    int dim = c->dim, n = dim == 2 ? SUBCELLS_2D : SUBCELLS_3D;
+    fe_rule cell;
+    int64_t boxes = dim == 2 ? (int64_t)n * n : (int64_t)n * n * n, at = 0;
+
+    TRY(fe_rule_cell(c, 5, &cell, err));
+    if (!c->simplex) {
+        r->n_fine = (int)(boxes * cell.n);
+        ARENA_NEW(&r->memory, r->fine, r->n_fine, err);
+        ARENA_NEW(&r->memory, r->fine_weight, r->n_fine, err);
+        for (int64_t b = 0; b < boxes; b++)
+            for (int q = 0; q < cell.n; q++, at++) {
+                int64_t i[3] = {b % n, b / n % n, b / ((int64_t)n * n)};
+
+                r->fine_weight[at] = cell.w[q] / (double)boxes;
+                for (int k = 0; k < dim; k++)
+                    r->fine[at][k] = -1 + (2.0 * (double)i[k] + 1 + cell.x[q][k]) / n;
+            }
+        return 0;
+    }
+    /* a simplex is a box collapsed (Duffy): Gauss points of the box, the Jacobian goes into the weight */
+    TRY(fe_rule_cell(fe_cell_of(dim == 2 ? PF_QUAD9 : PF_HEX27), 7, &cell, err));
+    r->n_fine = (int)(boxes * cell.n);
+    ARENA_NEW(&r->memory, r->fine, r->n_fine, err);
+    ARENA_NEW(&r->memory, r->fine_weight, r->n_fine, err);
+    for (int64_t b = 0; b < boxes; b++)
+        for (int q = 0; q < cell.n; q++, at++) {
+            int64_t i[3] = {b % n, b / n % n, b / ((int64_t)n * n)};
+            double u[3] = {0};
+
+            for (int k = 0; k < dim; k++)
+                u[k] = ((double)i[k] + 0.5 + 0.5 * cell.x[q][k]) / n;
+            r->fine[at][0] = u[0] * (1 - u[1]) * (1 - u[2]);
+            r->fine[at][1] = u[1] * (1 - u[2]);
+            r->fine[at][2] = u[2];
+            r->fine_weight[at] = cell.w[q] / (double)boxes / (dim == 2 ? 4 : 8) * (1 - u[1]) *
+                                 (dim == 3 ? (1 - u[2]) * (1 - u[2]) : 1);
+        }
+    return 0;
+}
+
+int cut_rule_create(cut_rule *r, const fe_cell *type, error *err)
+{
+    memset(r, 0, sizeof *r);
+    r->type = type;
+    TRY(place_points(r, err));
+    TRY(place_fine(r, err));
+    ARENA_NEW(&r->memory, r->fine_basis, (int64_t)r->n_fine * type->n_node, err);
+    ARENA_NEW(&r->memory, r->projection, (int64_t)r->n_fine * r->n, err);
+    for (int64_t s = 0; s < r->n_fine; s++) {
+        double ignored[FE_MAX_NODES][3];
+
+        fe_basis(type, 2, r->fine[s], r->fine_basis + s * type->n_node, ignored);
+        project(r, r->fine[s], r->projection + s * r->n);
+    }
+    return 0;
+}
+
+void cut_rule_destroy(cut_rule *r)
+{
+    arena_free(&r->memory);
+    memset(r, 0, sizeof *r);
+}
+
+static void map(const cut_rule *r, const mesh *m, int32_t cell, int64_t s, double *x)
+{
+    const double *b = r->fine_basis + s * r->type->n_node;
+    const int32_t *node = m->cell + (int64_t)cell * r->type->n_node;
+
+    memset(x, 0, 3 * sizeof *x);
+    for (int i = 0; i < r->type->n_node; i++)
+        for (int k = 0; k < m->dim; k++)
+            x[k] += b[i] * m->x[(int64_t)node[i] * m->dim + k];
+}
+
+int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, double *w)
+{
+    double rotation[3][3];
+    int any = 0;
+
+    particle_rotation(p, rotation);
+    memset(w, 0, (size_t)r->n * sizeof *w);
+    for (int64_t s = 0; s < r->n_fine; s++) {
+        const double *l = r->projection + s * r->n;
+        double x[3];
+
+        map(r, m, cell, s, x);
+        if (particle_level(p, (const double(*)[3])rotation, x) >= 0)
+            continue;
+        any = 1;
+        for (int q = 0; q < r->n; q++)
+            w[q] += r->fine_weight[s] * l[q];
+    }
+    return any;
+}
+
+/* Position relative to the body's centre and Jacobian determinant at interpolation point q. */
+static double place(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, int q, double *arm)
+{
+    double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], j[3][3] = {{0}};
+    const int32_t *node = m->cell + (int64_t)cell * r->type->n_node;
+
+    fe_basis(r->type, 2, r->x[q], n, dn);
+    memset(arm, 0, 3 * sizeof *arm);
+    if (m->dim == 2)
+        j[2][2] = 1;
+    for (int i = 0; i < r->type->n_node; i++)
+        for (int a = 0; a < m->dim; a++) {
+            double x = m->x[(int64_t)node[i] * m->dim + a];
+
+            arm[a] += n[i] * x;
+            for (int b = 0; b < m->dim; b++)
+                j[a][b] += x * dn[i][b];
+        }
+    for (int a = 0; a < m->dim; a++)
+        arm[a] -= p->x[a];
+    return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) - j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
+           j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
+}
+
+/* 1, r_i, r_i r_j (i <= j), scaled by the body's radius. */
+static int moments_at(int dim, const double *arm, double radius, double *m)
+{
+    int n = 0;
+
+    m[n++] = 1;
+    for (int i = 0; i < dim; i++)
+        m[n++] = arm[i] / radius;
+    for (int i = 0; i < dim; i++)
+        for (int j = i; j < dim; j++)
+            m[n++] = arm[i] * arm[j] / (radius * radius);
+    return n;
+}
+
+int cut_correct(const cut_rule *r, const mesh *m, const particle *p, const int32_t *cell, double *w, int64_t n,
+                double fraction, error *err)
+{
+    const shape *s = &p->shape;
+    double a[10][10] = {{0}}, target[10] = {0}, rotation[3][3], have[10] = {0}, basis[10], arm[3];
+    int k = 1 + m->dim + m->dim * (m->dim + 1) / 2, at = 0;
+
+    for (int64_t i = 0; i < n; i++)
+        for (int q = 0; q < r->n; q++) {
+            double det = place(r, m, cell[i], p, q, arm);
+
+            moments_at(m->dim, arm, s->radius, basis);
+            for (int b = 0; b < k; b++) {
+                have[b] += w[i * r->n + q] * det * basis[b];
+                for (int c = 0; c < k; c++)
+                    a[b][c] += w[i * r->n + q] * det * basis[b] * basis[c];
+            }
+        }
+    if (!(have[0] > 0))
+        return error_set(err, ERR_CASE, "a body at (%.6g, %.6g%s%.6g) lies outside the mesh", p->x[0], p->x[1],
+                         m->dim == 3 ? ", " : "; ", m->dim == 3 ? p->x[2] : 0.0);
+    if (fraction < 1) { /* cut by a symmetry plane: its volume is known, the rest is as the cells have it */
+        for (int64_t i = 0; i < n * r->n; i++)
+            w[i] *= fraction > 0 ? fraction * s->volume / have[0] : 1;
+        return 0;
+    }
+    particle_rotation(p, rotation);
+    target[at++] = s->volume;
+    at += m->dim;
+    for (int i = 0; i < m->dim; i++)
+        for (int j = i; j < m->dim; j++, at++)
+            for (int b = 0; b < m->dim; b++)
+                for (int c = 0; c < m->dim; c++)
+                    target[at] += rotation[i][b] * s->moment[b][c] * rotation[j][c] / (s->radius * s->radius);
+    for (int i = 0; i < k; i++)
+        target[i] -= have[i];
+    for (int i = 0; i < k; i++) { /* the matrix of moments is symmetric positive definite */
+        for (int b = i + 1; b < k; b++) {
+            double f = a[b][i] / a[i][i];
+
+            for (int c = i; c < k; c++)
+                a[b][c] -= f * a[i][c];
+            target[b] -= f * target[i];
+        }
+    }
+    for (int i = k - 1; i >= 0; i--) {
+        for (int c = i + 1; c < k; c++)
+            target[i] -= a[i][c] * target[c];
+        target[i] /= a[i][i];
+    }
+    for (int64_t i = 0; i < n; i++)
+        for (int q = 0; q < r->n; q++) {
+            double f = 1;
+
+            place(r, m, cell[i], p, q, arm);
+            moments_at(m->dim, arm, s->radius, basis);
+            for (int b = 0; b < k; b++)
+                f += target[b] * basis[b];
+            w[i * r->n + q] *= f;
+        }
+    return 0;
+}

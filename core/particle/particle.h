@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * particle.h -- rigid bodies: shape, place, motion, and the part of each cell that they cover. */
+#ifndef PARTICLE_PARTICLE_H
+#define PARTICLE_PARTICLE_H
+
+#include "base/arena.h"
+#include "base/error.h"
+#include "base/value.h"
+#include "mesh/mesh.h"
+
+enum shape_kind { SHAPE_ELLIPSOID, SHAPE_BOX, SHAPE_CYLINDER, SHAPE_SUPERELLIPSOID, SHAPE_DISTANCE };
+
+/* A body in its own frame, centroid at the origin. */
+typedef struct shape {
+    int kind, dim;
+    double half[3];      /* semi-axes, half edges, or {radius, radius, half length} (axis z) */
+    double exponent[2];  /* superellipsoid: |x/a|^e0 + |y/b|^e0, then with z: e1              */
+    value distance;      /* SHAPE_DISTANCE: signed distance, negative inside                  */
+    double centre[3];    /* SHAPE_DISTANCE: centroid in the frame of `distance`               */
+    double radius;       /* of a ball round the origin that holds it                          */
+    double thickness;    /* smallest width, for the resolution                                */
+    double volume;       /* area in 2D                                                        */
+    double moment[3][3]; /* int x_i x_j over the body                                         */
+} shape;
+
+/* Fills volume, moments and radius; by formula, or by quadrature for general shapes. */
+int shape_measure(shape *s, error *err);
+/* Negative inside; not a distance in general. */
+double shape_level(const shape *s, const double *body_x);
+
+enum particle_motion { PARTICLE_FREE, PARTICLE_FIXED, PARTICLE_PRESCRIBED };
+
+typedef struct particle {
+    shape shape;
+    double density;
+    int motion;
+    double x[3], angle, q[4]; /* place now: centroid, angle (2D), quaternion (3D, w first) */
+    value velocity, spin;     /* initial, of the surface (fixed), or prescribed            */
+    int held[6];              /* single components of velocity (3) and spin (3) held       */
+} particle;
+
+/* Rotation matrix of a particle: columns are the body's axes. */
+void particle_rotation(const particle *p, double r[3][3]);
+/* Level of the body at a point of space. */
+double particle_level(const particle *p, const double r[3][3], const double *x);
+/* Turns by the rotation vector (rad); 2D: its last component. */
+void particle_turn(particle *p, const double *rotation);
+
+/* --- cells near a point: a grid of buckets, built once (search.c) --- */
+typedef struct cell_grid {
+    int dim, n[3];
+    double low[3], width[3];
+    int64_t *start; /* [n buckets + 1] */
+    int32_t *cell;
+    double *box;   /* [n_cell][2][3] bounds of cells */
+    int32_t *seen; /* [n_cell] mark of the last query that listed the cell */
+    int32_t query;
+    arena memory;
+} cell_grid;
+
+int cell_grid_create(cell_grid *g, const mesh *m, error *err);
+/* Cells whose box meets the ball, ascending; *list has room for m->n_cell. Returns their number. */
+int64_t cell_grid_ball(cell_grid *g, const double *x, double radius, int32_t *list);
+void cell_grid_destroy(cell_grid *g);
+
+/* --- covered part of cells (cut.c) --- */
+
+enum { CUT_MAX_POINTS = 125 };
+
+/* Fixed points on the reference cell on which the covered part of any cell is integrated:
+ * w_q = int_covered L_q, L_q the Lagrange polynomials (degree 4 a direction, or in all on simplices),
+ * so that products of two basis functions are integrated as exactly as the covered part is known. */
+typedef struct cut_rule {
+    const fe_cell *type;
+    int n;
+    double x[CUT_MAX_POINTS][3];
+    double *inverse; /* simplices: inverse Vandermonde matrix, [n][n] */
+    int n_fine;      /* points of the fine rule on a cell */
+    double (*fine)[3], *fine_weight;
+    double *fine_basis; /* second-order basis at the fine points, [n_fine][n_node] */
+    double *projection; /* L_q at the fine points, [n_fine][n] */
+    arena memory;
+} cut_rule;
+
+int cut_rule_create(cut_rule *r, const fe_cell *type, error *err);
+void cut_rule_destroy(cut_rule *r);
+
+/* Weights w[rule.n] (reference measure) of the part of the cell inside the particle; 0 if there is none. */
+int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, double *w);
+
+/* Multiplies the weights of a body that lies inside the mesh by 1 + c0 + c.r + r.C.r so that volume,
+ * centroid and second moments are exact.  item: n cells with weights; fraction: of the body inside the domain. */
+int cut_correct(const cut_rule *r, const mesh *m, const particle *p, const int32_t *cell, double *w, int64_t n,
+                double fraction, error *err);
+
+#endif

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Shapes: which points are inside, volume and second moments. */
+#include "particle/particle.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Cells of the grid over the bounding box, a direction, for moments by quadrature. */
+enum { MOMENT_CELLS_2D = 1200, MOMENT_CELLS_3D = 160 };
+
+static double general_level(const shape *s, const double *x)
+{
+    double at[3] = {0}, d[VALUE_MAX] = {1};
+    error ignored;
+
+    for (int k = 0; k < s->dim; k++)
+        at[k] = x[k] + s->centre[k];
+    return value_at(&s->distance, at, 0, d, &ignored) ? 1 : d[0];
+}
+
+double shape_level(const shape *s, const double *x)
+{
+    double v = 0;
+
+    switch (s->kind) {
+    case SHAPE_ELLIPSOID:
+        for (int k = 0; k < s->dim; k++)
+            v += x[k] * x[k] / (s->half[k] * s->half[k]);
+        return v - 1;
+    case SHAPE_BOX:
+        for (int k = 0; k < s->dim; k++)
+            v = fmax(v, fabs(x[k]) / s->half[k]);
+        return v - 1;
+    case SHAPE_CYLINDER:
+        return fmax((x[0] * x[0] + x[1] * x[1]) / (s->half[0] * s->half[0]), fabs(x[2]) / s->half[2]) - 1;
+    case SHAPE_SUPERELLIPSOID:
+        v = pow(fabs(x[0] / s->half[0]), s->exponent[0]) + pow(fabs(x[1] / s->half[1]), s->exponent[0]);
+        if (s->dim == 3)
+            v = pow(v, s->exponent[1] / s->exponent[0]) + pow(fabs(x[2] / s->half[2]), s->exponent[1]);
+        return v - 1;
+    default:
+        return general_level(s, x);
+    }
+}
+
+static int measure_formula(shape *s)
+{
+    const double *h = s->half;
+    double n = s->dim == 2 ? 4 : 5;
+
+    memset(s->moment, 0, sizeof s->moment);
+    switch (s->kind) {
+    case SHAPE_ELLIPSOID:
+        s->volume = s->dim == 2 ? M_PI * h[0] * h[1] : 4 * M_PI / 3 * h[0] * h[1] * h[2];
+        for (int k = 0; k < s->dim; k++)
+            s->moment[k][k] = s->volume * h[k] * h[k] / n;
+        return 1;
+    case SHAPE_BOX:
+        s->volume = s->dim == 2 ? 4 * h[0] * h[1] : 8 * h[0] * h[1] * h[2];
+        for (int k = 0; k < s->dim; k++)
+            s->moment[k][k] = s->volume * h[k] * h[k] / 3;
+        return 1;
+    case SHAPE_CYLINDER:
+        s->volume = 2 * M_PI * h[0] * h[0] * h[2];
+        s->moment[0][0] = s->moment[1][1] = s->volume * h[0] * h[0] / 4;
+        s->moment[2][2] = s->volume * h[2] * h[2] / 3;
+        return 1;
+    default:
+        return 0;
+    }
+}
+
+/* Moments of order 0, 1, 2 about the origin by midpoints of a fine grid over +-half. */
+static void measure_grid(const shape *s, double *volume, double *first, double second[3][3])
+{
+    int n = s->dim == 2 ? MOMENT_CELLS_2D : MOMENT_CELLS_3D, nz = s->dim == 2 ? 1 : n;
+    double d[3];
+
+    *volume = 0;
+    memset(first, 0, 3 * sizeof *first);
+    memset(second, 0, 9 * sizeof(double));
+    for (int k = 0; k < 3; k++)
+        d[k] = 2 * s->half[k] / n;
+    for (int c = 0; c < nz; c++)
+        for (int b = 0; b < n; b++)
+            for (int a = 0; a < n; a++) {
+                double x[3] = {-s->half[0] + (a + 0.5) * d[0], -s->half[1] + (b + 0.5) * d[1],
+                               s->dim == 3 ? -s->half[2] + (c + 0.5) * d[2] : 0};
+                double w = d[0] * d[1] * (s->dim == 3 ? d[2] : 1);
+
+                if (shape_level(s, x) >= 0)
+                    continue;
+                *volume += w;
+                for (int i = 0; i < s->dim; i++) {
+                    first[i] += w * x[i];
+                    for (int j = 0; j < s->dim; j++)
+                        second[i][j] += w * x[i] * x[j];
+                }
+            }
+}
+
+int shape_measure(shape *s, error *err)
+{
+    double first[3];
+
+    s->radius = 0;
+    for (int k = 0; k < s->dim; k++)
+        s->radius += s->half[k] * s->half[k];
+    s->radius = s->kind == SHAPE_ELLIPSOID ? fmax(s->half[0], fmax(s->half[1], s->dim == 3 ? s->half[2] : 0))
+                                           : sqrt(s->radius);
+    if (s->kind == SHAPE_CYLINDER)
+        s->radius = hypot(s->half[0], s->half[2]);
+    s->thickness = 2 * fmin(s->half[0], s->dim == 3 ? fmin(s->half[1], s->half[2]) : s->half[1]);
+    if (measure_formula(s))
+        return 0;
+    memset(s->centre, 0, sizeof s->centre);
+    measure_grid(s, &s->volume, first, s->moment);
+    if (!(s->volume > 0))
+        return error_set(err, ERR_CASE, "the distance function is nowhere negative inside the box of its shape");
+    for (int k = 0; k < s->dim; k++)
+        s->centre[k] = s->kind == SHAPE_DISTANCE ? first[k] / s->volume : 0;
+    for (int i = 0; i < s->dim; i++) {
+        s->radius += fabs(s->centre[i]);
+        for (int j = 0; j < s->dim; j++)
+            s->moment[i][j] -= s->volume * s->centre[i] * s->centre[j];
+    }
+    return 0;
+}
+
+void particle_rotation(const particle *p, double r[3][3])
+{
+    double w = p->q[0], x = p->q[1], y = p->q[2], z = p->q[3];
+
+    if (p->shape.dim == 2) {
+        double c = cos(p->angle), s = sin(p->angle);
+        const double m[3][3] = {{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
+
+        memcpy(r, m, sizeof m);
+        return;
+    }
+    r[0][0] = 1 - 2 * (y * y + z * z), r[0][1] = 2 * (x * y - w * z), r[0][2] = 2 * (x * z + w * y);
+    r[1][0] = 2 * (x * y + w * z), r[1][1] = 1 - 2 * (x * x + z * z), r[1][2] = 2 * (y * z - w * x);
+    r[2][0] = 2 * (x * z - w * y), r[2][1] = 2 * (y * z + w * x), r[2][2] = 1 - 2 * (x * x + y * y);
+}
+
+double particle_level(const particle *p, const double r[3][3], const double *x)
+{
+    double body[3] = {0};
+
+    for (int i = 0; i < p->shape.dim; i++)
+        for (int j = 0; j < p->shape.dim; j++)
+            body[i] += r[j][i] * (x[j] - p->x[j]);
+    return shape_level(&p->shape, body);
+}
+
+/* q <- exp(rotation / 2) q, normalised. */
+void particle_turn(particle *p, const double *rotation)
+{
+    double angle, s, a[4], *q = p->q, b[4], norm = 0;
+
+    if (p->shape.dim == 2) {
+        p->angle += rotation[2];
+        return;
+    }
+    angle = sqrt(rotation[0] * rotation[0] + rotation[1] * rotation[1] + rotation[2] * rotation[2]);
+    s = angle > 1e-12 ? sin(angle / 2) / angle : 0.5;
+    a[0] = cos(angle / 2), a[1] = s * rotation[0], a[2] = s * rotation[1], a[3] = s * rotation[2];
+    b[0] = a[0] * q[0] - a[1] * q[1] - a[2] * q[2] - a[3] * q[3];
+    b[1] = a[0] * q[1] + a[1] * q[0] + a[2] * q[3] - a[3] * q[2];
+    b[2] = a[0] * q[2] - a[1] * q[3] + a[2] * q[0] + a[3] * q[1];
+    b[3] = a[0] * q[3] + a[1] * q[2] - a[2] * q[1] + a[3] * q[0];
+    for (int k = 0; k < 4; k++)
+        norm += b[k] * b[k];
+    for (int k = 0; k < 4; k++)
+        q[k] = b[k] / sqrt(norm);
+}
