@@ -99,15 +99,16 @@ static int ends_with(const char *s, const char *end)
 
 int file_clean_run(const char *dir, error *err)
 {
-    static const char *const mine[] = {"forces.csv",   "probes.csv", "fields.pvd", "run.jsonl",
-                                       "summary.json", "units.json", "case.json"};
+    static const char *const mine[] = {"forces.csv", "probes.csv",   "particles.csv", "particles.pvd", "fields.pvd",
+                                       "run.jsonl",  "summary.json", "units.json",    "case.json"};
     DIR *d = opendir(dir);
     struct dirent *e;
     char lines[4600];
 
     while (d && (e = readdir(d))) {
         char path[4600];
-        int remove_it = strncmp(e->d_name, "fields_", 7) == 0 && ends_with(e->d_name, ".vtu");
+        int remove_it = (strncmp(e->d_name, "fields_", 7) == 0 && ends_with(e->d_name, ".vtu")) ||
+                        (strncmp(e->d_name, "particles_", 10) == 0 && ends_with(e->d_name, ".vtp"));
 
         for (size_t i = 0; i < sizeof mine / sizeof *mine; i++)
             remove_it |= strcmp(e->d_name, mine[i]) == 0;

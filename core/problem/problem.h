@@ -95,6 +95,7 @@ typedef struct problem {
     int64_t n_covered;
     double active_threshold; /* tau of the active set                                  */
     double geometry_seconds;
+    float *node_share; /* [n_node] */
     double *cut_basis; /* second-order basis at the points of the cut rule       */
     double h_mean, h_max;
     int coarse_warned;

@@ -252,6 +252,8 @@ int output_open(run *r, error *err)
         return error_set(err, ERR_IO, "%s: cannot be opened", path);
     text_add(&units, "{");
     status = open_tables(r, &units, err);
+    if (!status)
+        status = particles_open(r, err);
     for (int f = 0; f < r->p->space.n_field; f++)
         text_add(&units, "%s\n  \"%s\": \"%s\"", units.n > 1 ? "," : "", r->p->space.field[f].name,
                  r->p->space.field[f].unit);
@@ -357,6 +359,7 @@ int output_fields(run *r, double t, error *err)
     r->file_time[r->n_file++] = t;
     snprintf(path, sizeof path, "%s/fields.pvd", r->dir);
     TRY(vtu_write_pvd(path, (const char *const *)r->file, r->file_time, r->n_file, err));
+    TRY(particles_outline(r, t, err));
     r->result->seconds_output += solve_seconds() - start;
     return 0;
 }
@@ -434,6 +437,10 @@ void output_close(run *r)
 {
     table_destroy(&r->forces);
     table_destroy(&r->probes);
+    table_destroy(&r->particles);
+    for (int i = 0; i < r->n_body_file; i++)
+        free(r->body_file[i]);
+    free(r->body_file);
     for (int i = 0; i < r->n_file; i++)
         free(r->file[i]);
     free(r->file);

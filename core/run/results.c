@@ -4,12 +4,14 @@
  *
  *     r.t                    times of the rows of forces.csv and probes.csv
  *     r.series["wall.fx"]    a column of those, as a list;  r.last["wall.fx"] its last value
+ *     r.last["p0.fx"]        columns of particles.csv, by number of the body
  *     r.errors.u             { l2, h1, l2_exact } of fields with an exact solution             */
 #include "run/run.h"
 
 #include <lauxlib.h>
 #include <lua.h>
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,6 +29,29 @@ static void push_table(lua_State *l, const table *t, int series, int last)
             lua_setfield(l, last, t->column[c]);
         }
     }
+}
+
+/* Columns of particles.csv as p<id>.<name>: "p0.fx". */
+static void push_particles(lua_State *l, const table *t, int series, int last)
+{
+    int n = 0;
+
+    while (n < t->n_row && (int)t->row[n * t->n_column + 1] == n)
+        n++;
+    for (int id = 0; id < n; id++)
+        for (int c = 2; c < t->n_column; c++) {
+            char name[120];
+
+            snprintf(name, sizeof name, "p%d.%.100s", id, t->column[c]);
+            lua_newtable(l);
+            for (long i = id, k = 1; i < t->n_row; i += n, k++) {
+                lua_pushnumber(l, t->row[i * t->n_column + c]);
+                lua_rawseti(l, -2, k);
+            }
+            lua_setfield(l, series, name);
+            lua_pushnumber(l, t->row[(t->n_row - n + id) * t->n_column + c]);
+            lua_setfield(l, last, name);
+        }
 }
 
 /* A column that is not there: an error that lists those that are. */
@@ -73,12 +98,13 @@ static void push_errors(lua_State *l, const run_result *q)
 
 static void push_argument(lua_State *l, const run *r)
 {
-    const table *any = r->forces.n_column ? &r->forces : &r->probes;
+    const table *any = r->forces.n_column ? &r->forces : r->probes.n_column ? &r->probes : &r->particles;
+    long every = any == &r->particles && r->p->n_particle ? r->p->n_particle : 1;
 
     lua_newtable(l);
     lua_newtable(l);
-    for (long i = 0; i < any->n_row; i++) {
-        lua_pushnumber(l, any->row[i * any->n_column]);
+    for (long i = 0; i < any->n_row / every; i++) {
+        lua_pushnumber(l, any->row[i * every * any->n_column]);
         lua_rawseti(l, -2, (int)i + 1);
     }
     lua_setfield(l, -2, "t");
@@ -86,6 +112,7 @@ static void push_argument(lua_State *l, const run *r)
     lua_newtable(l);
     push_table(l, &r->forces, lua_gettop(l) - 1, lua_gettop(l));
     push_table(l, &r->probes, lua_gettop(l) - 1, lua_gettop(l));
+    push_particles(l, &r->particles, lua_gettop(l) - 1, lua_gettop(l));
     guard_columns(l);
     lua_setfield(l, -3, "last");
     guard_columns(l);

@@ -125,7 +125,9 @@ static int steady(run *r, error *err)
     gauge_zero_mean(&p->system, p->x);
     warn_defect(r);
     TRY(newton_residual(&p->system, &(newton_time){0}, p->x, r->residual, err));
+    r->last = (newton_time){0};
     TRY(output_series(r, 0, err));
+    TRY(particles_write(r, 0, err));
     TRY(output_fields(r, 0, err));
     return output_lines(r, 0, err);
 }
@@ -145,6 +147,8 @@ static int one_step(run *r, stepper *s, double next, error *err)
     memcpy(r->residual, s->residual, (size_t)p->space.n_dof * sizeof *r->residual);
     TRY(log_solve(r, s->t, s->dt_previous, &s->report, err));
     TRY(output_series(r, s->t, err));
+    r->last = s->last;
+    TRY(particles_write(r, s->t, err));
     progress = (run_progress){.step = r->result->steps,
                               .steps = lround(ceil((p->time.stop - p->time.start) / p->time.step * (1 - 1e-12))),
                               .t = s->t,
@@ -243,7 +247,7 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
 
     memset(result, 0, sizeof *result);
     result->status = "ok";
-    r.forces.fd = r.probes.fd = -1;
+    r.forces.fd = r.probes.fd = r.particles.fd = -1;
     p->system.stop = stop;
     ARENA_NEW(&p->memory, r.residual, p->space.n_dof, err);
     status = problem_initial(p, err);

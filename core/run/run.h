@@ -47,7 +47,10 @@ typedef struct run {
     const char *dir;
     const run_talk *talk;
     run_result *result;
-    table forces, probes;
+    table forces, probes, particles;
+    newton_time last; /* of the state that is written */
+    int n_body_file;
+    char **body_file;
     struct located *probe_at, **line_at;
     int log_fd, warned;
     int n_file, room;
@@ -63,6 +66,9 @@ int output_series(run *r, double t, error *err); /* forces and probes, every ste
 int output_fields(run *r, double t, error *err); /* a .vtu and the .pvd           */
 int output_lines(run *r, double t, error *err);
 int output_event(run *r, const char *event, const char *fields_json, error *err);
+int particles_open(run *r, error *err);
+int particles_write(run *r, double t, error *err);   /* particles.csv, every step          */
+int particles_outline(run *r, double t, error *err); /* a .vtp for the file of fields just written */
 int output_summary(run *r, error *err);
 void output_close(run *r);
 

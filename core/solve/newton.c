@@ -45,8 +45,13 @@ static int evaluate(newton_system *s, const newton_time *time, const double *x, 
                     error *err)
 {
     const space *sp = s->space;
-    assembly_state st = {
-        .t = time->t, .dt = time->dt, .shift = time->shift, .x = x, .dot = s->work, .old = time->old};
+    assembly_state st = {.t = time->t,
+                         .dt = time->dt,
+                         .shift = time->shift,
+                         .x = x,
+                         .dot = s->work,
+                         .old = time->old,
+                         .only = time->only};
     double start = solve_seconds();
     int status;
 

@@ -114,6 +114,7 @@ void system_destroy(newton_system *s);
 typedef struct newton_time {
     double t, dt, shift;
     const double *history, *old; /* NULL: steady */
+    uint32_t only;               /* not 0: terms with one of these flags only */
 } newton_time;
 
 /* The residual of all rows at x, as it is (reactions at prescribed unknowns). */
@@ -157,8 +158,8 @@ typedef struct stepper {
     newton_options options;
     dirichlet_fn *dirichlet;
     void *dirichlet_ctx;
-    move_fn *move; /* NULL: nothing moves */
-    double shift;  /* of the last step     */
+    move_fn *move;           /* NULL: nothing moves */
+    struct newton_time last; /* of the last step, with its history */
     newton_report report;
     int newton_iterations, n_steps, n_halved;
     arena memory;

@@ -62,7 +62,6 @@ static int step(stepper *p, int order, double dt, int *converged, error *err)
     TRY(p->dirichlet(p->dirichlet_ctx, time.t, p->x, err));
     TRY(move(p, MOVE_REMEMBER, 0, 0, NULL, NULL, err));
     TRY(move(p, MOVE_PREDICT, 0, dt, p->save[2], p->x, err));
-    p->shift = time.shift;
     TRY(newton_solve(s, &time, &p->options, p->x, &p->report, err));
     p->newton_iterations += p->report.iterations;
     *converged = p->report.converged;
@@ -76,6 +75,7 @@ static int step(stepper *p, int order, double dt, int *converged, error *err)
     gauge_zero_mean(s, p->save[2]);
     time.old = p->before;
     TRY(newton_residual(s, &time, p->save[2], p->residual, err));
+    p->last = time;
     p->dt_previous = dt;
     p->t += dt;
     p->n_history++;
