@@ -20,6 +20,12 @@ typedef double v8 __attribute__((vector_size(64)));
 
 enum { ASSEMBLE_MAX_INPUTS = 32, ASSEMBLE_MAX_TESTS = 16, ASSEMBLE_MAX_USES = 32, ASSEMBLE_PAD = 3 };
 
+/* A body and what is near it. */
+typedef struct near_pair {
+    int32_t attached; /* any attached pair of the body                       */
+    double gap, normal[3], size;
+} near_pair;
+
 /* A term that the case switched on. */
 typedef struct term_use {
     const term_plugin *plugin;
@@ -58,8 +64,9 @@ typedef struct assembly_class {
     int where;
     int64_t n_item;
     int32_t *cell, *facet;
-    int64_t *group;       /* of each item: the carriers that it adds to (see space.h)       */
-    const double *weight; /* PF_SOLID: reference weights of each item, [n_item][n_q]         */
+    int64_t *group;        /* of each item: the carriers that it adds to (see space.h)       */
+    const near_pair *pair; /* PF_PAIR: of each item */
+    const double *weight;  /* PF_SOLID: reference weights of each item, [n_item][n_q]         */
     int64_t n_batch;
     int64_t *batch; /* first item of each batch, [n_batch + 1]                  */
     int n_slab;
@@ -112,6 +119,9 @@ typedef struct assembly_state {
 
 int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int n_spec, int n_thread, error *err);
 
+/* Tells the PF_PAIR classes which bodies are near something. */
+int assembly_set_pairs(assembly *a, const near_pair *pair, int64_t n, error *err);
+
 /* Tells the PF_SOLID classes which attached pairs (space.h) a body covers, with weights [n][rule->n]. */
 int assembly_set_solid(assembly *a, const particle *particle, const cut_rule *rule, int64_t n,
                        const int32_t *attached, const double *weight, error *err);
@@ -127,7 +137,8 @@ void assembly_destroy(assembly *a);
 /* --- between the files of this folder ------------------------------------------------- */
 
 typedef struct workspace {
-    v8 *x_node;             /* [dim][nodes]                                            */
+    v8 *x_node; /* [dim][nodes]                                            */
+    v8 *gap, *size;
     v8 *arm, *density;      /* [dim][n_q], [n_q] */
     int32_t *id;            /* [n_q][8] */
     v8 *w, *x, *normal, *h; /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */

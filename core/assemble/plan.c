@@ -98,6 +98,8 @@ static int place_rules(assembly *a, assembly_class *c, const cut_rule *solid, er
 
         if (c->where == PF_FACET) {
             TRY(fe_rule_facet(type, f, FACET_DEGREE, r, c->tangent[f], &c->orient[f], err));
+        } else if (c->where == PF_PAIR) {
+            r->n = 1; /* any point of the cell: weight 1, and no field of the mesh */
         } else if (c->where == PF_SOLID) {
             r->n = solid->n;
             memcpy(r->x, solid->x, (size_t)solid->n * sizeof *r->x);
@@ -195,7 +197,7 @@ static int place_items(assembly *a, assembly_class *c, const assembly_spec *spec
 int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err)
 {
     const space *s = a->space;
-    int serial = spec->where == PF_FACET || spec->where == PF_SOLID;
+    int serial = spec->where != PF_CELL;
 
     c->where = spec->where;
     memset(c->block, 0xff, sizeof c->block);
@@ -216,7 +218,7 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
     }
     c->n_slab = serial ? 1 : a->n_thread;
     TRY(place_rules(a, c, spec->solid, err));
-    if (c->where == PF_SOLID)
+    if (c->where == PF_SOLID || c->where == PF_PAIR)
         return 0; /* its items come with the bodies */
     TRY(place_items(a, c, spec, err));
     for (int i = 0; i < c->n_input; i++)
@@ -252,6 +254,8 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
     ARENA_NEW(&w->memory, w->h, q, err);
     ARENA_NEW(&w->memory, w->arm, q * dim, err);
     ARENA_NEW(&w->memory, w->density, q, err);
+    ARENA_NEW(&w->memory, w->gap, q, err);
+    ARENA_NEW(&w->memory, w->size, q, err);
     ARENA_NEW(&w->memory, w->id, q * PF_LANES, err);
     for (int order = 0; order < 3; order++)
         for (size_t k = 0; k <= dim; k++)
@@ -270,6 +274,43 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
     return w->scratch ? 0 : error_memory(err, "scratch", (double)scratch);
 }
 
+/* Room for n items of a class whose cells change. */
+static int renew_items(assembly_class *c, int64_t n, error *err)
+{
+    arena_free(&c->item_memory);
+    c->n_item = n;
+    c->n_batch = (n + PF_LANES - 1) / PF_LANES;
+    c->n_slab = 1;
+    ARENA_NEW(&c->item_memory, c->cell, n + 1, err);
+    ARENA_NEW(&c->item_memory, c->facet, n + 1, err);
+    ARENA_NEW(&c->item_memory, c->group, n + 1, err);
+    ARENA_NEW(&c->item_memory, c->batch, c->n_batch + 1, err);
+    ARENA_NEW(&c->item_memory, c->slab, 3, err);
+    for (int64_t b = 0; b <= c->n_batch; b++)
+        c->batch[b] = b * PF_LANES < n ? b * PF_LANES : n;
+    c->slab[1] = c->slab[2] = c->n_batch;
+    return 0;
+}
+
+int assembly_set_pairs(assembly *a, const near_pair *pair, int64_t n, error *err)
+{
+    const space *s = a->space;
+
+    for (int k = 0; k < a->n_class; k++) {
+        assembly_class *c = &a->class_[k];
+
+        if (c->where != PF_PAIR)
+            continue;
+        TRY(renew_items(c, n, err));
+        c->pair = pair;
+        for (int64_t i = 0; i < n; i++) {
+            c->cell[i] = s->attached_cell[pair[i].attached];
+            c->group[i] = s->mesh->n_cell + pair[i].attached;
+        }
+    }
+    return 0;
+}
+
 int assembly_set_solid(assembly *a, const particle *particle, const cut_rule *rule, int64_t n,
                        const int32_t *attached, const double *weight, error *err)
 {
@@ -281,23 +322,12 @@ int assembly_set_solid(assembly *a, const particle *particle, const cut_rule *ru
 
         if (c->where != PF_SOLID)
             continue;
-        arena_free(&c->item_memory);
-        c->n_item = n;
-        c->n_batch = (n + PF_LANES - 1) / PF_LANES;
-        c->n_slab = 1;
+        TRY(renew_items(c, n, err));
         c->weight = weight;
-        ARENA_NEW(&c->item_memory, c->cell, n + 1, err);
-        ARENA_NEW(&c->item_memory, c->facet, n + 1, err);
-        ARENA_NEW(&c->item_memory, c->group, n + 1, err);
-        ARENA_NEW(&c->item_memory, c->batch, c->n_batch + 1, err);
-        ARENA_NEW(&c->item_memory, c->slab, 3, err);
         for (int64_t i = 0; i < n; i++) {
             c->cell[i] = s->attached_cell[attached[i]];
             c->group[i] = s->mesh->n_cell + attached[i];
         }
-        for (int64_t b = 0; b <= c->n_batch; b++)
-            c->batch[b] = b * PF_LANES < n ? b * PF_LANES : n;
-        c->slab[1] = c->slab[2] = c->n_batch;
         if (rule->n != c->n_q)
             return error_set(err, ERR_CASE, "the points of a body do not fit its class");
     }

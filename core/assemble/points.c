@@ -95,6 +95,14 @@ static void particle_slots(const assembly *a, const assembly_class *c, int64_t b
         for (int q = 0; q < nq; q++) {
             for (int k = 0; k < dim; k++)
                 w->arm[k * nq + q][l] = w->x[k * nq + q][l] - p->x[k];
+            if (c->pair) {
+                const near_pair *near = &c->pair[item_of(c, batch, l)];
+
+                w->gap[q][l] = near->gap;
+                w->size[q][l] = near->size;
+                for (int k = 0; k < dim; k++)
+                    w->normal[k * nq + q][l] = near->normal[k];
+            }
             w->density[q][l] = p->density;
             w->id[q * 8 + l] = id;
         }
@@ -126,7 +134,9 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
             for (int k = 0; k < dim; k++)
                 w->normal[k * nq + q] = n[k];
         }
-        if (c->weight)
+        if (c->where == PF_PAIR)
+            w->w[q] = (v8){0} + 1;
+        else if (c->weight)
             for (int l = 0; l < 8; l++)
                 w->w[q][l] = det[l] * c->weight[item_of(c, batch, l) * nq + q];
         else
@@ -158,7 +168,7 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
                     w->basis[order][k][i * nq + q] = (v8){0};
         }
     }
-    if (c->where == PF_SOLID)
+    if (c->where == PF_SOLID || c->where == PF_PAIR)
         particle_slots(a, c, batch, w);
 }
 

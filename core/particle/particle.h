@@ -44,6 +44,8 @@ typedef struct particle {
 void particle_rotation(const particle *p, double r[3][3]);
 /* Level of the body at a point of space. */
 double particle_level(const particle *p, const double r[3][3], const double *x);
+/* Largest extent of the body from its centre in direction n (unit vector). */
+double particle_support(const particle *p, const double r[3][3], const double *n);
 /* Turns by the rotation vector (rad); 2D: its last component. */
 void particle_turn(particle *p, const double *rotation);
 

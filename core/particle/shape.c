@@ -154,6 +154,30 @@ double particle_level(const particle *p, const double r[3][3], const double *x)
     return shape_level(&p->shape, body);
 }
 
+double particle_support(const particle *p, const double r[3][3], const double *n)
+{
+    const shape *s = &p->shape;
+    double b[3] = {0}, v = 0;
+
+    for (int i = 0; i < s->dim; i++)
+        for (int j = 0; j < s->dim; j++)
+            b[i] += r[j][i] * n[j];
+    switch (s->kind) {
+    case SHAPE_ELLIPSOID:
+        for (int i = 0; i < s->dim; i++)
+            v += s->half[i] * s->half[i] * b[i] * b[i];
+        return sqrt(v);
+    case SHAPE_BOX:
+        for (int i = 0; i < s->dim; i++)
+            v += s->half[i] * fabs(b[i]);
+        return v;
+    case SHAPE_CYLINDER:
+        return s->half[0] * hypot(b[0], b[1]) + s->half[2] * fabs(b[2]);
+    default:
+        return s->radius;
+    }
+}
+
 /* q <- exp(rotation / 2) q, normalised. */
 void particle_turn(particle *p, const double *rotation)
 {

@@ -225,7 +225,7 @@ static void activate(problem *p, double *x)
 int problem_cut(problem *p, double *x, error *err)
 {
     double start = solve_seconds();
-    int again = p->space.n_attached == 0;
+    int again = p->space.n_attached == 0, moved = 0;
 
     if (p->n_particle == 0)
         return 0;
@@ -234,12 +234,18 @@ int problem_cut(problem *p, double *x, error *err)
 
         for (int i = 0; i < p->dim; i++)
             d += pow(p->particle[k].x[i] - p->envelope[3 * k + i], 2);
+        moved |= p->particle[k].motion != PARTICLE_FIXED;
         again |= sqrt(d) > 0.95 * MARGIN * p->h_max;
     }
     if (again)
         TRY(attach(p, err));
     TRY(cut(p, err));
     activate(p, x);
+    TRY(problem_find_pairs(p, err));
+    if (p->system.linear.solver)
+        TRY(assembly_set_pairs(&p->system.assembly, p->pair, p->n_pair, err));
+    if (p->system.linear.solver && moved)
+        linear_forget(&p->system.linear); /* the old factors know the old cells */
     if (p->system.linear.solver)
         TRY(assembly_set_solid(&p->system.assembly, p->particle, &p->cut, p->n_covered, p->covered, p->weight,
                                err));

@@ -24,10 +24,11 @@ static int make_periodic(problem *p, error *err)
 /* One class for the cells, one for each boundary line with fluxes, one for terms on all facets. */
 static int make_system(problem *p, error *err)
 {
-    assembly_spec spec[PROBLEM_MAX_LINES + 2] = {{0}};
-    term_use *cell[ASSEMBLE_MAX_USES], *facet[ASSEMBLE_MAX_USES], *solid[ASSEMBLE_MAX_USES];
+    assembly_spec spec[PROBLEM_MAX_LINES + 4] = {{0}};
+    term_use *cell[ASSEMBLE_MAX_USES], *facet[ASSEMBLE_MAX_USES], *solid[ASSEMBLE_MAX_USES],
+        *pair[ASSEMBLE_MAX_USES];
     uint8_t *all;
-    int n = 1, n_facet = 0, n_solid = 0;
+    int n = 1, n_facet = 0, n_solid = 0, n_pair = 0;
 
     spec[0] = (assembly_spec){.where = PF_CELL, .use = cell};
     for (int i = 0; i < p->n_use; i++) {
@@ -37,6 +38,8 @@ static int make_system(problem *p, error *err)
             cell[spec[0].n_use++] = u;
         else if (u->term->where == PF_SOLID)
             solid[n_solid++] = u;
+        else if (u->term->where == PF_PAIR)
+            pair[n_pair++] = u;
         else if (!(u->term->flags & PF_BY_BOUNDARY))
             facet[n_facet++] = u;
     }
@@ -51,6 +54,8 @@ static int make_system(problem *p, error *err)
                 p->continuation.use[p->continuation.n_use++] = p->line[i].flux[k];
     if (n_solid)
         spec[n++] = (assembly_spec){.where = PF_SOLID, .use = solid, .n_use = n_solid, .solid = &p->cut};
+    if (n_pair)
+        spec[n++] = (assembly_spec){.where = PF_PAIR, .use = pair, .n_use = n_pair};
     if (n_facet) {
         ARENA_NEW(&p->memory, all, p->mesh.n_facet, err);
         memset(all, 1, (size_t)p->mesh.n_facet);

@@ -93,6 +93,10 @@ typedef struct problem {
     double *weight;   /* of the covered cells                                   */
     int32_t *covered; /* attached pairs that a body covers                      */
     int64_t n_covered;
+    near_pair *pair; /* bodies near something                                  */
+    int64_t n_pair, pair_room;
+    unsigned walls;          /* bit k: side k of the box is a wall */
+    double pair_range;       /* gap up to which pairs are looked for                   */
     double active_threshold; /* tau of the active set                                  */
     double geometry_seconds;
     float *node_share; /* [n_node] */
@@ -139,6 +143,8 @@ int problem_make_mesh(problem *p, error *err);
 int problem_read_terms(problem *p, error *err);
 int problem_read_boundaries(problem *p, error *err);
 int problem_make_boundaries(problem *p, error *err);
+/* Bodies within pair_range of a wall of the box or of each other (contacts.c). */
+int problem_find_pairs(problem *p, error *err);
 int problem_read_particles(problem *p, error *err);
 int problem_make_particles(problem *p, error *err);
 void problem_hold_particles(problem *p); /* marks the unknowns that do not move by themselves */

@@ -180,7 +180,8 @@ static int check_term(const term_plugin *p, const pf_term *t, const struct subje
         return wrong(err, s, "lacks doc (its weak form) or cite (where the equation stands)");
     if (t->where < PF_CELL || t->where > PF_PAIR)
         return wrong(err, s, "acts on unknown points, where = %u", t->where);
-    if (t->where != PF_CELL && t->where != PF_FLUID && t->where != PF_FACET && t->where != PF_SOLID)
+    if (t->where != PF_CELL && t->where != PF_FLUID && t->where != PF_FACET && t->where != PF_SOLID &&
+        t->where != PF_PAIR)
         return wrong(err, s, "acts on %s points, which this version does not feed yet", term_where_name(t->where));
     if (!t->residual)
         return wrong(err, s, "has no residual function");

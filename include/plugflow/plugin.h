@@ -131,6 +131,9 @@ typedef struct pf_batch {
     void *kernel;                   /* the kernel's own; pass the batch on to host->fail  */
     const double *density;          /* [ld] of the particle, PF_SOLID (1.1)                    */
     const int32_t *id;              /* [ld] of the particle, from 0, PF_SOLID (1.1)            */
+    /* PF_PAIR (1.1): one point for each body of a near pair, with the other (a body or a wall) at `gap`;
+     * normal points from the other to the body; size: of the body across, m. */
+    const double *gap, *size_of;
 } pf_batch;
 
 /* in[k], out[k]: [component][ld] of slot k.  The residual assigns every output.
