@@ -1,10 +1,10 @@
 -- A disk settling in a channel (Glowinski et al. 2001, case A): it accelerates, falls steadily, and comes to rest on the floor.
--- Expect the largest Reynolds number rho_P d |U| / mu between 17.1 and 17.7; --set n=32 (cells per cm) is a fine run.
+-- Expect the largest Reynolds number rho_P d |U| / mu between 17.1 and 17.7; --set n=32 --set dt=0.0025 is a fine run.
 case "Disk settling in a channel"
 
-local n = param("n", 16, "cells per cm")
-local dt = param("dt", 5e-3, "time step, s")
-local stop = param("stop", 0.6, "end, s")
+local n = param("n", 12, "cells per cm")
+local dt = param("dt", 0.01, "time step, s")
+local stop = param("stop", 0.9, "end, s")
 local rho = param("density", 1.25, "density of the disk, g/cm^3")
 local d, mu = 0.25, 0.1
 

@@ -319,14 +319,15 @@ static int compose(const vtu_file *v, const picture_options *o, const picture_vi
     return 0;
 }
 
-static int draw_file(const vtu_file *v, const char *title, const picture_options *o, int svg, const char *path,
-                     error *err)
+static int draw_file(const vtu_file *v, const char *vtu_path, const char *title, const picture_options *o, int svg,
+                     const char *path, error *err)
 {
     picture_view view;
     picture_field f = {0};
     picture_text labels;
     picture_outline outline;
-    picture_content c = {.text = &labels, .outline = &outline, .arrows = o->lines};
+    picture_bodies bodies = {0};
+    picture_content c = {.text = &labels, .outline = &outline, .bodies = &bodies, .arrows = o->lines};
     arena a = {0};
     int status;
 
@@ -337,6 +338,8 @@ static int draw_file(const vtu_file *v, const char *title, const picture_options
     TRY(label_title(v, &view, title, &labels, err));
     TRY(outline_make(v, &view, &outline, err));
     status = compose(v, o, &view, &f, &outline, &c, svg && o->width <= 4000 ? 2 : 1, &a, err);
+    if (!status && v->dim == 2)
+        status = bodies_read(vtu_path, v->has_time ? v->time : INFINITY, &bodies, &a, err);
     if (!status)
         status = save(&c, svg, path, err);
     outline_free(&outline);
@@ -359,7 +362,7 @@ int picture_draw(const char *vtu_path, const char *title, const picture_options 
     if (o->width && (o->width < 200 || o->width > 10000))
         return error_set(err, ERR_USAGE, "a picture of %d pixels width; possible are 200 to 10000", o->width);
     TRY(vtu_open(&v, vtu_path, err));
-    status = draw_file(&v, title, o, svg, out_path, err);
+    status = draw_file(&v, vtu_path, title, o, svg, out_path, err);
     if (status == ERR_USAGE)
         error_prefix(err, "%s: ", vtu_path);
     vtu_close(&v);

@@ -97,6 +97,16 @@ static double up(const picture_content *c, double y)
     return g->y + g->h - (y - g->up.low) / (g->up.high - g->up.low) * g->h;
 }
 
+static double place_x(const void *c, double x)
+{
+    return across(c, x);
+}
+
+static double place_y(const void *c, double y)
+{
+    return up(c, y);
+}
+
 /* The raster as an image of its own pixels, transparent outside of the domain. */
 static cairo_surface_t *raster_image(const picture_content *c)
 {
@@ -341,6 +351,13 @@ void figure_draw(cairo_t *cr, const picture_content *c)
     cairo_clip(cr);
     if (c->arrows)
         draw_arrows(cr, c);
+    if (c->bodies && c->bodies->n) {
+        cairo_save(cr);
+        cairo_rectangle(cr, c->figure->x, c->figure->y, c->figure->w, c->figure->h);
+        cairo_clip(cr);
+        bodies_draw(cr, c->bodies, c->figure->em, &(bodies_place){place_x, place_y, c});
+        cairo_restore(cr);
+    }
     draw_outline(cr, c);
     cairo_restore(cr);
     draw_bar(cr, c);

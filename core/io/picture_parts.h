@@ -107,7 +107,27 @@ typedef struct picture_figure {
 void figure_place(picture_figure *g, const picture_text *text, const double low[2], const double high[2],
                   const double range[2], int width);
 
+/* picture_bodies.c -- rigid bodies of the run. */
+
+typedef struct picture_bodies {
+    int n;
+    double (*point)[2]; /* per body: centre, then 96 points of the outline */
+    long n_step;
+    double (*step)[2]; /* places of all bodies, step after step           */
+} picture_bodies;
+
+/* From metres to the figure. */
+typedef struct bodies_place {
+    double (*x)(const void *ctx, double x), (*y)(const void *ctx, double y);
+    const void *ctx;
+} bodies_place;
+
+/* The bodies beside the file of fields; none is no error. */
+int bodies_read(const char *vtu_path, double time, picture_bodies *b, arena *a, error *err);
+void bodies_draw(cairo_t *cr, const picture_bodies *b, double em, const bodies_place *place);
+
 typedef struct picture_content {
+    const picture_bodies *bodies;
     const picture_figure *figure;
     const picture_text *text;
     const picture_outline *outline;

@@ -108,6 +108,8 @@ typedef struct problem {
     int n_dirichlet;
     dirichlet_set *dirichlet;
     value initial[SPACE_MAX_FIELDS], exact[SPACE_MAX_FIELDS];
+    value offset[SPACE_MAX_FIELDS]; /* added to what is written, not to what is solved */
+    int has_offset[SPACE_MAX_FIELDS];
     int has_initial[SPACE_MAX_FIELDS], has_exact[SPACE_MAX_FIELDS];
     problem_time time;
     problem_output output;

@@ -257,6 +257,7 @@ int problem_read_settings(problem *p, error *err)
     (void)err;
     read_fields(p, "initial", p->initial, p->has_initial);
     read_fields(p, "exact", p->exact, p->has_exact);
+    read_fields(p, "offset", p->offset, p->has_offset);
     read_time(p);
     read_output(p);
     read_solve(p);

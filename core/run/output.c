@@ -234,12 +234,40 @@ static int write_case(run *r, error *err)
     return status;
 }
 
+/* What the case adds to fields in files, at the nodes (the pressure without rho g.x gets it back). */
+static int make_offset(run *r, error *err)
+{
+    problem *p = r->p;
+
+    ARENA_NEW(&p->memory, r->offset, p->space.n_dof, err);
+    ARENA_NEW(&p->memory, r->shown, p->space.n_dof, err);
+    for (int f = 0; f < p->space.n_field; f++)
+        for (int64_t c = 0; p->has_offset[f] && c < p->mesh.n_node; c++) {
+            double x[3] = {0}, v[VALUE_MAX] = {0};
+
+            if (p->space.first[f][c] < 0)
+                continue;
+            memcpy(x, p->mesh.x + c * p->dim, (size_t)p->dim * sizeof *x);
+            TRY(value_at(&p->offset[f], x, p->time.start, v, err));
+            memcpy(r->offset + p->space.first[f][c], v, (size_t)p->space.field[f].n_comp * sizeof *v);
+        }
+    return 0;
+}
+
+static const double *shown(run *r)
+{
+    for (int64_t d = 0; d < r->p->space.n_dof; d++)
+        r->shown[d] = r->p->x[d] + r->offset[d];
+    return r->shown;
+}
+
 int output_open(run *r, error *err)
 {
     char path[4600];
     text units = {0};
     int status;
 
+    TRY(make_offset(r, err));
     TRY(locate_lines(r, err));
     TRY(locate_probes(r, err)); /* before anything of an earlier run goes */
     TRY(file_make_dir(r->dir, err));
@@ -320,11 +348,13 @@ int output_series(run *r, double t, error *err)
         status = table_add(&r->forces, row, err);
     }
     if (!status && o->n_probe) {
+        const double *x = shown(r);
+
         at = row;
         *at++ = t;
         for (int i = 0; i < o->n_probe; i++)
             for (int f = 0; f < p->space.n_field; f++) {
-                locate_value(&p->space, &r->probe_at[i], f, p->x, at, NULL);
+                locate_value(&p->space, &r->probe_at[i], f, x, at, NULL);
                 at += p->space.field[f].n_comp;
             }
         status = table_add(&r->probes, row, err);
@@ -351,7 +381,7 @@ int output_fields(run *r, double t, error *err)
     }
     snprintf(name, sizeof name, "fields_%05d.vtu", r->n_file);
     snprintf(path, sizeof path, "%s/%s", r->dir, name);
-    TRY(vtu_write(path, &r->p->space, r->p->output.field, r->p->output.n_field, r->p->x,
+    TRY(vtu_write(path, &r->p->space, r->p->output.field, r->p->output.n_field, shown(r),
                   r->p->time.unsteady ? t : NAN, err));
     r->file[r->n_file] = strdup(name);
     if (!r->file[r->n_file])
@@ -367,6 +397,7 @@ int output_fields(run *r, double t, error *err)
 int output_lines(run *r, double t, error *err)
 {
     const problem *p = r->p;
+    const double *x = shown(r);
     char path[4600];
 
     if (p->output.n_line) {
@@ -398,7 +429,7 @@ int output_lines(run *r, double t, error *err)
                 double v[VALUE_MAX] = {NAN, NAN, NAN};
 
                 if (r->line_at[i][k].cell >= 0)
-                    locate_value(&p->space, &r->line_at[i][k], f, p->x, v, NULL);
+                    locate_value(&p->space, &r->line_at[i][k], f, x, v, NULL);
                 for (int c = 0; c < p->space.field[f].n_comp; c++) {
                     text_add(&s, ",");
                     if (isfinite(v[c]))

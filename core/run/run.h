@@ -58,6 +58,8 @@ typedef struct run {
     double *file_time;
     double start;
     double *residual; /* of the last solve */
+    double *offset;   /* [n_dof] added to the solution in files */
+    double *shown;    /* [n_dof] solution + offset             */
     text results;     /* JSON of the case's derived results */
 } run;
 

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Shapes, covered parts of cells, the search for cells. */
+#include "particle/particle.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void make(mesh *m, int dim, int simplex)
+{
+    mesh_box b = {.dim = dim, .simplex = simplex, .high = {1, 1, 1}, .n = {8, 7, 6}};
+    error err;
+
+    assert_int_equal(mesh_create_box(&b, m, &err), 0);
+    assert_int_equal(mesh_measure(m, &err), 0);
+}
+
+static particle body(int dim, int kind)
+{
+    particle p = {.shape = {.kind = kind, .dim = dim, .half = {0.21, 0.13, 0.17}, .exponent = {4, 4}},
+                  .density = 1};
+    error err;
+
+    p.x[0] = 0.47, p.x[1] = 0.52, p.x[2] = dim == 3 ? 0.49 : 0;
+    p.angle = 0.4;
+    p.q[0] = cos(0.3), p.q[1] = sin(0.3) * 0.6, p.q[3] = sin(0.3) * 0.8;
+    assert_int_equal(shape_measure(&p.shape, &err), 0);
+    return p;
+}
+
+/* Volume, first and second moments of the corrected weights, by an integration of its own. */
+static void moments(const cut_rule *r, const mesh *m, const particle *p, const int32_t *cell, const double *w,
+                    int64_t n, double *volume, double *first, double second[3][3])
+{
+    *volume = 0;
+    memset(first, 0, 3 * sizeof *first);
+    memset(second, 0, 9 * sizeof(double));
+    for (int64_t i = 0; i < n; i++)
+        for (int q = 0; q < r->n; q++) {
+            double b[FE_MAX_NODES], db[FE_MAX_NODES][3], x[3] = {0};
+            double v = w[i * r->n + q] * pow(m->h[cell[i]], m->dim) / m->type->measure;
+
+            fe_basis(m->type, 2, r->x[q], b, db);
+            for (int a = 0; a < m->type->n_node; a++)
+                for (int k = 0; k < m->dim; k++)
+                    x[k] += b[a] * m->x[(int64_t)m->cell[(int64_t)cell[i] * m->type->n_node + a] * m->dim + k];
+            *volume += v;
+            for (int k = 0; k < m->dim; k++) {
+                first[k] += v * (x[k] - p->x[k]);
+                for (int l = 0; l < m->dim; l++)
+                    second[k][l] += v * (x[k] - p->x[k]) * (x[l] - p->x[l]);
+            }
+        }
+}
+
+static void volume_centroid_and_inertia_are_exact(void **state)
+{
+    static const int kinds[] = {SHAPE_ELLIPSOID, SHAPE_BOX, SHAPE_CYLINDER, SHAPE_SUPERELLIPSOID};
+    error err;
+
+    (void)state;
+    for (int t = 0; t < 4; t++)
+        for (int k = 0; k < 4; k++) {
+            int dim = 2 + t / 2;
+            mesh m;
+            cut_rule r;
+            particle p;
+            double *w, volume, first[3], second[3][3], rotation[3][3], raw;
+            int32_t *cell;
+            int64_t n = 0;
+
+            if (kinds[k] == SHAPE_CYLINDER && dim == 2)
+                continue;
+            make(&m, dim, t % 2);
+            p = body(dim, kinds[k]);
+            assert_int_equal(cut_rule_create(&r, m.type, &err), 0);
+            w = malloc((size_t)(m.n_cell * r.n) * sizeof *w);
+            cell = malloc((size_t)m.n_cell * sizeof *cell);
+            for (int32_t e = 0; e < m.n_cell; e++)
+                if (cut_cell(&r, &m, e, &p, w + n * r.n))
+                    cell[n++] = e;
+            moments(&r, &m, &p, cell, w, n, &raw, first, second);
+            assert_true(fabs(raw / p.shape.volume - 1) < 0.02); /* the cut itself is near */
+            assert_int_equal(cut_correct(&r, &m, &p, cell, w, n, 1, &err), 0);
+            moments(&r, &m, &p, cell, w, n, &volume, first, second);
+            particle_rotation(&p, rotation);
+            assert_true(fabs(volume / p.shape.volume - 1) < 1e-12);
+            for (int i = 0; i < dim; i++) {
+                assert_true(fabs(first[i]) < 1e-12 * p.shape.volume);
+                for (int j = 0; j < dim; j++) {
+                    double exact = 0;
+
+                    for (int a = 0; a < dim; a++)
+                        for (int b = 0; b < dim; b++)
+                            exact += rotation[i][a] * p.shape.moment[a][b] * rotation[j][b];
+                    assert_true(fabs(second[i][j] - exact) < 1e-12 * p.shape.volume);
+                }
+            }
+            free(w);
+            free(cell);
+            cut_rule_destroy(&r);
+            mesh_destroy(&m);
+        }
+}
+
+static void formulas_agree_with_quadrature(void **state)
+{
+    error err;
+
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        particle disk = body(dim, SHAPE_ELLIPSOID), general = body(dim, SHAPE_SUPERELLIPSOID);
+
+        general.shape.exponent[0] = general.shape.exponent[1] = 2;
+        assert_int_equal(shape_measure(&general.shape, &err), 0);
+        assert_true(fabs(general.shape.volume / disk.shape.volume - 1) < 1e-3);
+        assert_true(fabs(general.shape.moment[0][0] / disk.shape.moment[0][0] - 1) < 1e-3);
+    }
+}
+
+/* A body turned in many small steps about an axis is where one turn puts it. */
+static void small_turns_add_up(void **state)
+{
+    particle p = body(3, SHAPE_BOX), q = p;
+
+    (void)state;
+    for (int i = 0; i < 1000; i++)
+        particle_turn(&p, (double[3]){0.001, -0.002, 0.0005});
+    particle_turn(&q, (double[3]){1, -2, 0.5});
+    for (int k = 0; k < 4; k++)
+        assert_true(fabs(p.q[k] - q.q[k]) < 1e-12);
+}
+
+static void the_grid_finds_the_cells_that_a_look_at_all_finds(void **state)
+{
+    error err;
+
+    (void)state;
+    for (int t = 0; t < 4; t++) {
+        mesh m;
+        cell_grid g;
+        int32_t list[5000];
+        const double x[3] = {0.3, 0.6, 0.4};
+        int64_t n, expected = 0;
+
+        make(&m, 2 + t / 2, t % 2);
+        assert_int_equal(cell_grid_create(&g, &m, &err), 0);
+        assert_true(m.n_cell < 5000);
+        n = cell_grid_ball(&g, x, 0.19, list);
+        for (int64_t e = 0; e < m.n_cell; e++) {
+            double d2 = 0;
+
+            for (int k = 0; k < m.dim; k++) {
+                double low = INFINITY, high = -INFINITY, d;
+
+                for (int i = 0; i < m.type->n_node; i++) {
+                    low = fmin(low, m.x[(int64_t)m.cell[e * m.type->n_node + i] * m.dim + k]);
+                    high = fmax(high, m.x[(int64_t)m.cell[e * m.type->n_node + i] * m.dim + k]);
+                }
+                d = fmax(0, fmax(low - x[k], x[k] - high));
+                d2 += d * d;
+            }
+            expected += d2 <= 0.19 * 0.19;
+        }
+        assert_int_equal(n, expected);
+        cell_grid_destroy(&g);
+        mesh_destroy(&m);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(volume_centroid_and_inertia_are_exact),
+        cmocka_unit_test(formulas_agree_with_quadrature),
+        cmocka_unit_test(small_turns_add_up),
+        cmocka_unit_test(the_grid_finds_the_cells_that_a_look_at_all_finds),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
