@@ -158,9 +158,9 @@ static double field_norms(const newton_system *s, const double *scale, double *n
 }
 
 /* One more correction with the factors there are: it costs a solve and a residual, and takes the
- * error of a steady state down to round-off.  Kept only if the residual falls. */
+ * error down to round-off.  Kept only if the residual falls.  *change: no more than its relative size. */
 static int polish(newton_system *s, const newton_time *time, const double *scale, double *x, double *norm,
-                  error *err)
+                  double *change, error *err)
 {
     const space *sp = s->space;
     double before = field_norms(s, scale, norm), after;
@@ -175,6 +175,7 @@ static int polish(newton_system *s, const newton_time *time, const double *scale
     TRY(evaluate(s, time, x, 0, 0, err));
     gauge_project(s, s->residual);
     after = field_norms(s, scale, norm);
+    *change = fmin(*change, field_change(s, x, 1));
     if (after < before)
         return 0;
     memcpy(x, s->trial, (size_t)sp->n_dof * sizeof *x);
@@ -274,12 +275,14 @@ int newton_solve(newton_system *s, const newton_time *time, const newton_options
         }
         if (s->talk)
             s->talk(s->talk_ctx, k, report->history[k], report->norm, length);
-        if (report->history[k] <= o->tolerance && (k == 0 || field_change(s, x, length) <= LAST_STEP) &&
-            gauge_holds(s)) {
-            report->converged = 1;
-            if (o->linear_tolerance == 0 && k > 0 && report->history[k] > 1e-15)
-                TRY(polish(s, time, scale, x, report->norm, err));
-            break;
+        if (report->history[k] <= o->tolerance && gauge_holds(s)) {
+            double change = report->history[k] > 0 && k > 0 ? field_change(s, x, length) : 0;
+
+            if (s->linear.factored && report->history[k] > 0)
+                TRY(polish(s, time, scale, x, report->norm, &change, err));
+            report->converged = change <= LAST_STEP;
+            if (report->converged)
+                break;
         }
         if (s->stop && *s->stop) {
             snprintf(report->why, sizeof report->why, "stopped by a signal");
