@@ -40,8 +40,20 @@ static int advection_jacobian(const pf_batch *b, const double *const *in, double
 
 /* u as momentum declares it, T for the first time. */
 static const pf_field fields[] = {
-    {.name = "u", .unit = "m/s", .doc = "velocity", .shape = PF_VECTOR, .order = 2, .reaction = "force", .reaction_unit = "N"},
-    {.name = "T", .unit = "K", .doc = "temperature", .shape = PF_SCALAR, .order = 2, .reaction = "heat", .reaction_unit = "W"},
+    {.name = "u",
+     .unit = "m/s",
+     .doc = "velocity",
+     .shape = PF_VECTOR,
+     .order = 2,
+     .reaction = "force",
+     .reaction_unit = "N"},
+    {.name = "T",
+     .unit = "K",
+     .doc = "temperature",
+     .shape = PF_SCALAR,
+     .order = 2,
+     .reaction = "heat",
+     .reaction_unit = "W"},
 };
 
 #define KEY(NAME, UNIT, DOC, TYPE, FLAGS, MAX)                                                                     \

@@ -126,10 +126,10 @@ static void light_and_heavy_bodies_are_stable_at_one_step(void **state)
 
     (void)state;
     for (int k = 0; k < 5; k++) {
-        assert_ran(
-            plugflow("run cases/falling_disk.lua --quiet --set n=10 --set dt=0.005 --set density=%s --set stop=0.05 --out %s/d",
-                     density[k], scratch()),
-            0, NULL);
+        assert_ran(plugflow("run cases/falling_disk.lua --quiet --set n=10 --set dt=0.005 --set density=%s --set "
+                            "stop=0.05 --out %s/d",
+                            density[k], scratch()),
+                   0, NULL);
         assert_between(summary("d", "steps_halved"), 0, 0);
         assert_between(summary("d", "results.y"), 3, before - (k ? 1e-6 : 0)); /* the heavier, the lower */
         before = summary("d", "results.y");
