@@ -14,6 +14,8 @@
 
 /* A field below this, relative to what its equations might make of it, is zero but for round-off. */
 #define VANISHES 1e-12
+/* A scaled residual that nothing makes smaller. */
+#define ROUND_OFF 1e-14
 /* Newton goes on until its last step was smaller than this, relative to the field: what is left is its square. */
 #define LAST_STEP 1e-4
 
@@ -280,7 +282,7 @@ int newton_solve(newton_system *s, const newton_time *time, const newton_options
 
             if (s->linear.factored && report->history[k] > 0)
                 TRY(polish(s, time, scale, x, report->norm, &change, err));
-            report->converged = change <= LAST_STEP;
+            report->converged = change <= LAST_STEP || report->history[k] <= ROUND_OFF;
             if (report->converged)
                 break;
         }

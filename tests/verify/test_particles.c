@@ -84,6 +84,58 @@ static void momentum_balance_is_closed(void **state)
     free(wall);
 }
 
+/* A free neutral disk in shear turns with half the shear rate; in the centre its velocity is zero but for
+ * round-off. */
+static void a_disk_in_shear_turns_with_half_the_rate(void **state)
+{
+    static const char *const place[] = {"--set x0=0.013 --set y0=0.0091", "--set x0=0 --set y0=0",
+                                        "--set x0=0.0231 --set y0=-0.0177"};
+
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        assert_ran(plugflow("run cases/sheared_disk.lua --quiet %s --out %s/shear", place[k], scratch()), 0, NULL);
+        print_message("# disk in shear, D/h = 11, place %d: omega %.4f\n", k, summary("shear", "results.omega"));
+        assert_between(summary("shear", "results.omega"), -0.5 * 1.025, -0.5 * 0.975);
+    }
+}
+
+/* Order of a result from three steps, each half of the one before. */
+static double order_in_time(const char *arguments, const char *result)
+{
+    double v[3];
+
+    for (int k = 0; k < 3; k++) {
+        char name[100];
+
+        assert_ran(plugflow("run tests/verify/spinning_disk.lua --quiet %s --set dt=%g --out %s/spin", arguments,
+                            0.05 / (1 << k), scratch()),
+                   0, NULL);
+        snprintf(name, sizeof name, "results.%s", result);
+        v[k] = summary("spin", name);
+    }
+    return log2((v[0] - v[1]) / (v[1] - v[2]));
+}
+
+static void bodies_are_of_second_order_in_time(void **state)
+{
+    static const struct {
+        const char *arguments, *result;
+    } what[] = {{"", "v"},
+                {"", "torque"},
+                {"--set free=true", "omega"},
+                {"--set free=true", "angle"},
+                {"--set free=true", "v"}};
+
+    (void)state;
+    for (int k = 0; k < 5; k++) {
+        double order = order_in_time(what[k].arguments, what[k].result);
+
+        print_message("# order in time of %s (%s): %.2f\n", what[k].result,
+                      *what[k].arguments ? "free" : "prescribed", order);
+        assert_between(order, 1.8, 2.4);
+    }
+}
+
 static void a_neutral_body_does_not_notice_gravity(void **state)
 {
     (void)state;
@@ -181,6 +233,8 @@ int main(void)
         cmocka_unit_test(force_on_a_disk_at_16_cells),
         cmocka_unit_test(torque_on_a_disk_at_16_cells),
         cmocka_unit_test(momentum_balance_is_closed),
+        cmocka_unit_test(a_disk_in_shear_turns_with_half_the_rate),
+        cmocka_unit_test(bodies_are_of_second_order_in_time),
         cmocka_unit_test(a_neutral_body_does_not_notice_gravity),
         cmocka_unit_test(the_hydrostatic_pressure_is_written),
         cmocka_unit_test(light_and_heavy_bodies_are_stable_at_one_step),
