@@ -31,7 +31,7 @@ static int compare(problem *p, double shift, double *x, double *d, double *plus,
             .t = p->time.start, .dt = p->time.step, .shift = shift, .x = x, .dot = sys->step, .old = x};
 
         for (int64_t i = 0; i < s->n_dof; i++)
-            d[i] = s->dof_field[i] == g && !s->fixed[i] ? pseudo_random(seed) : 0;
+            d[i] = s->dof_field[i] == g && !s->fixed[i] && !s->idle[i] ? pseudo_random(seed) : 0;
         for (int sign = -1; sign <= 1; sign += 2) {
             for (int64_t i = 0; i < s->n_dof; i++) {
                 x[i] += sign * h * d[i];
@@ -67,7 +67,7 @@ static int all_pairs(problem *p, error *err)
     ARENA_NEW(&p->memory, plus, s->n_dof, err);
     ARENA_NEW(&p->memory, minus, s->n_dof, err);
     for (int64_t i = 0; i < s->n_dof; i++) {
-        x[i] = p->x[i] + pseudo_random(&seed);
+        x[i] = p->x[i] + (s->idle[i] || s->fixed[i] & 2 ? 0 : pseudo_random(&seed));
         sys->step[i] = shift * x[i];
     }
     TRY(assembly_run(

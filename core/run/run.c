@@ -229,6 +229,24 @@ static int finish(run *r, error *err)
     return strcmp(r->result->status, "ok") == 0 ? results_evaluate(r, err) : 0;
 }
 
+static int log_start(run *r, error *err)
+{
+    char line[300];
+
+    snprintf(line, sizeof line, "\"cells\": %lld, \"unknowns\": %lld, \"particles\": %d, \"threads\": %d",
+             (long long)r->p->mesh.n_cell, (long long)r->p->space.n_dof, r->p->n_particle, r->p->n_thread);
+    return output_event(r, "start", line, err);
+}
+
+static int log_end(run *r, error *err)
+{
+    char line[300];
+
+    snprintf(line, sizeof line, "\"status\": \"%s\", \"steps\": %ld, \"seconds\": %.6g", r->result->status,
+             r->result->steps, r->result->seconds_total);
+    return output_event(r, "end", line, err);
+}
+
 static const char *status_of(int code)
 {
     return code == 0              ? "ok"
@@ -255,6 +273,8 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
         status = problem_cut(p, p->x, err);
     if (!status)
         status = output_open(&r, err);
+    if (!status)
+        status = log_start(&r, err);
     if (!status) {
         status = p->time.unsteady ? unsteady(&r, stop, err) : steady(&r, err);
         if (!status)
@@ -262,6 +282,8 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
         if (status)
             result->status = status_of(status);
         if (output_summary(&r, status ? &later : err) && !status)
+            status = err->code;
+        if (log_end(&r, status ? &later : err) && !status)
             status = err->code;
         if (!status)
             say(&r, "  %s", r.results.s ? r.results.s : "");

@@ -42,6 +42,8 @@ int output_summary(run *r, error *err)
     number(&t, "unknowns", (double)p->space.n_dof);
     number(&t, "free_unknowns", (double)p->space.n_free);
     number(&t, "threads", p->n_thread);
+    if (p->n_particle)
+        number(&t, "particles", p->n_particle);
     number(&t, "steps", (double)q->steps);
     number(&t, "steps_halved", q->halved);
     number(&t, "newton_iterations", q->newton_iterations);
@@ -55,6 +57,8 @@ int output_summary(run *r, error *err)
     text_number(&t, l->cost.flops);
     text_add(&t, "},\n  \"seconds\": {\"setup\": ");
     text_number(&t, p->setup_seconds);
+    text_add(&t, ", \"geometry\": ");
+    text_number(&t, p->geometry_seconds);
     text_add(&t, ", \"assemble\": ");
     text_number(&t, q->seconds_assemble);
     text_add(&t, ", \"factor\": ");
