@@ -175,6 +175,10 @@ static int march(run *r, stepper *s, const volatile sig_atomic_t *stop, error *e
             int status = one_step(r, s, next, err);
             error ignored;
 
+            if (status && stop && *stop) { /* the signal came within the step */
+                r->result->status = "interrupted";
+                return output_fields(r, s->t, err);
+            }
             if (status && s->t > written) /* the last good state goes to disk */
                 output_fields(r, s->t, &ignored);
             TRY(status);

