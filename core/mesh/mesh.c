@@ -25,6 +25,26 @@ void mesh_destroy(mesh *m)
     memset(m, 0, sizeof *m);
 }
 
+double mesh_map(const mesh *m, int64_t cell, const double *n, const double (*dn)[3], double x[3], double j[3][3])
+{
+    const int32_t *node = m->cell + cell * m->type->n_node;
+
+    memset(x, 0, 3 * sizeof *x);
+    memset(j, 0, 9 * sizeof(double));
+    if (m->dim == 2)
+        j[2][2] = 1;
+    for (int i = 0; i < m->type->n_node; i++)
+        for (int a = 0; a < m->dim; a++) {
+            double at = m->x[(int64_t)node[i] * m->dim + a];
+
+            x[a] += n[i] * at;
+            for (int b = 0; b < m->dim; b++)
+                j[a][b] += at * dn[i][b];
+        }
+    return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) - j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
+           j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
+}
+
 int mesh_measure(mesh *m, error *err)
 {
     const fe_cell *c = m->type;
@@ -36,23 +56,11 @@ int mesh_measure(mesh *m, error *err)
         fe_basis(c, 2, rule.x[q], n[q], dn[q]);
     ARENA_NEW(&m->memory, m->h, m->n_cell, err);
     for (int64_t e = 0; e < m->n_cell; e++) {
-        const int32_t *node = m->cell + e * c->n_node;
         double volume = 0;
 
         for (int q = 0; q < rule.n; q++) {
-            double j[3][3] = {{0}}, det, at[3] = {0};
+            double j[3][3], at[3], det = mesh_map(m, e, n[q], (const double(*)[3])dn[q], at, j);
 
-            for (int i = 0; i < c->n_node; i++)
-                for (int a = 0; a < m->dim; a++) {
-                    at[a] += n[q][i] * m->x[(int64_t)node[i] * m->dim + a];
-                    for (int b = 0; b < m->dim; b++)
-                        j[a][b] += m->x[(int64_t)node[i] * m->dim + a] * dn[q][i][b];
-                }
-            if (m->dim == 2)
-                j[2][2] = 1;
-            det = j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) -
-                  j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
-                  j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
             if (!(det > 0))
                 return error_set(
                     err, ERR_MESH,

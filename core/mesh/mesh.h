@@ -55,6 +55,10 @@ int mesh_measure(mesh *m, error *err);
 /* Identifies the nodes of boundaries a and b, which must match under a translation. */
 int mesh_make_periodic(mesh *m, int a, int b, error *err);
 
+/* Isoparametric mapping of a cell at a point with second-order basis n, dn: place x, Jacobian matrix
+ * j[a][b] = dx_a / dxi_b (identity in unused directions); returns its determinant. */
+double mesh_map(const mesh *m, int64_t cell, const double *n, const double (*dn)[3], double x[3], double j[3][3]);
+
 int mesh_find_name(const mesh *m, const char *name); /* index or -1 */
 void mesh_destroy(mesh *m);
 

@@ -226,25 +226,13 @@ int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, 
 /* Position relative to the body's centre and Jacobian determinant at interpolation point q. */
 static double place(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, int q, double *arm)
 {
-    double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], j[3][3] = {{0}};
-    const int32_t *node = m->cell + (int64_t)cell * r->type->n_node;
+    double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], j[3][3], det;
 
     fe_basis(r->type, 2, r->x[q], n, dn);
-    memset(arm, 0, 3 * sizeof *arm);
-    if (m->dim == 2)
-        j[2][2] = 1;
-    for (int i = 0; i < r->type->n_node; i++)
-        for (int a = 0; a < m->dim; a++) {
-            double x = m->x[(int64_t)node[i] * m->dim + a];
-
-            arm[a] += n[i] * x;
-            for (int b = 0; b < m->dim; b++)
-                j[a][b] += x * dn[i][b];
-        }
+    det = mesh_map(m, cell, n, (const double(*)[3])dn, arm, j);
     for (int a = 0; a < m->dim; a++)
         arm[a] -= p->x[a];
-    return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) - j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
-           j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
+    return det;
 }
 
 /* 1, r_i, r_i r_j (i <= j), scaled by the body's radius. */

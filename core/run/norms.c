@@ -37,28 +37,18 @@ static void at_point(const problem *p, int f, int64_t e, const fe_rule *rule, in
     const mesh *m = &p->mesh;
     const fe_cell *c = m->type;
     const space_field *g = &p->space.field[f];
-    double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], j[3][3] = {{0}, {0}, {0}}, inv[3][3], det;
+    double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], j[3][3], inv[3][3], det;
     int dim = p->dim, n_basis = fe_n_basis(c, g->order);
 
     fe_basis(c, 2, rule->x[q], n, dn);
     memset(d, 0, sizeof *d);
-    if (dim == 2)
-        j[2][2] = 1;
-    for (int i = 0; i < c->n_node; i++)
-        for (int a = 0; a < dim; a++) {
-            double x = m->x[(int64_t)m->cell[e * c->n_node + i] * dim + a];
-
-            d->x[a] += n[i] * x;
-            for (int b = 0; b < dim; b++)
-                j[a][b] += x * dn[i][b];
-        }
+    det = mesh_map(m, e, n, (const double(*)[3])dn, d->x, j);
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) {
             int r = (b + 1) % 3, s = (b + 2) % 3, u = (a + 1) % 3, v = (a + 2) % 3;
 
             inv[a][b] = j[r][u] * j[s][v] - j[r][v] * j[s][u];
         }
-    det = j[0][0] * inv[0][0] + j[0][1] * inv[1][0] + j[0][2] * inv[2][0];
     d->w = rule->w[q] * det;
     d->h = m->h[e];
     fe_basis(c, g->order, rule->x[q], n, dn);

@@ -17,7 +17,7 @@ double gauge_weights(const space *s, int field, double *weight)
 {
     const mesh *m = s->mesh;
     const fe_cell *c = m->type;
-    int order = s->field[field].order, n = fe_n_basis(c, order), dim = m->dim;
+    int order = s->field[field].order, n = fe_n_basis(c, order);
     fe_rule rule;
     error ignored;
     double volume = 0;
@@ -30,17 +30,8 @@ double gauge_weights(const space *s, int field, double *weight)
         fe_basis(c, 2, rule.x[q], g, dg);
         fe_basis(c, order, rule.x[q], b, db);
         for (int64_t e = 0; e < m->n_cell; e++) {
-            double j[3][3] = {{0}, {0}, {0, 0, 1}}, det;
+            double j[3][3], at_x[3], det = mesh_map(m, e, g, (const double(*)[3])dg, at_x, j);
 
-            for (int i = 0; i < c->n_node; i++)
-                for (int p = 0; p < dim; p++)
-                    for (int r = 0; r < dim; r++)
-                        j[p][r] += m->x[(int64_t)m->cell[e * c->n_node + i] * dim + p] * dg[i][r];
-            if (dim == 2)
-                j[2][2] = 1;
-            det = j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) -
-                  j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
-                  j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
             volume += rule.w[q] * det;
             for (int i = 0; i < n; i++) {
                 int64_t at = s->first[field][space_carrier(s, e, assemble_local(s, field, i))];

@@ -38,19 +38,12 @@ static void solve3(int dim, double a[3][3], double *b)
     }
 }
 
-static void jacobian(const mesh *m, const int32_t *node, const double *xi, double *x, double j[3][3])
+static void jacobian(const mesh *m, int64_t cell, const double *xi, double *x, double j[3][3])
 {
     double n[FE_MAX_NODES], dn[FE_MAX_NODES][3];
 
     fe_basis(m->type, 2, xi, n, dn);
-    memset(x, 0, 3 * sizeof *x);
-    memset(j, 0, 9 * sizeof(double));
-    for (int i = 0; i < m->type->n_node; i++)
-        for (int a = 0; a < m->dim; a++) {
-            x[a] += n[i] * m->x[(int64_t)node[i] * m->dim + a];
-            for (int b = 0; b < m->dim; b++)
-                j[a][b] += m->x[(int64_t)node[i] * m->dim + a] * dn[i][b];
-        }
+    mesh_map(m, cell, n, (const double(*)[3])dn, x, j);
 }
 
 static int is_inside(const fe_cell *c, const double *xi)
@@ -67,14 +60,12 @@ static int is_inside(const fe_cell *c, const double *xi)
 
 static int invert(const mesh *m, int64_t e, const double *x, double *xi)
 {
-    const int32_t *node = m->cell + e * m->type->n_node;
-
     for (int k = 0; k < 3; k++)
         xi[k] = m->type->simplex ? 0.25 : 0;
     for (int it = 0; it < 30; it++) {
         double at[3], j[3][3], d[3], size = 0;
 
-        jacobian(m, node, xi, at, j);
+        jacobian(m, e, xi, at, j);
         for (int k = 0; k < m->dim; k++)
             d[k] = x[k] - at[k];
         solve3(m->dim, j, d);
@@ -137,7 +128,7 @@ void locate_value(const space *s, const located *at, int field, const double *x,
             value[k] += b[i] * u[k];
         if (!gradient)
             continue;
-        jacobian(m, node, at->xi, ignored, j);
+        jacobian(m, at->cell, at->xi, ignored, j);
         for (int p = 0; p < dim; p++)
             for (int q = 0; q < dim; q++)
                 jt[p][q] = j[q][p];
