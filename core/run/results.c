@@ -5,6 +5,7 @@
  *     r.t                    times of the rows of forces.csv and probes.csv
  *     r.series["wall.fx"]    a column of those, as a list;  r.last["wall.fx"] its last value
  *     r.last["p0.fx"]        columns of particles.csv, by number of the body
+ *     r.mean.u[1]            mean of a field's component over the domain
  *     r.errors.u             { l2, h1, l2_exact } of fields with an exact solution             */
 #include "run/run.h"
 
@@ -96,6 +97,34 @@ static void push_errors(lua_State *l, const run_result *q)
     }
 }
 
+/* Means of the fields on the mesh over the whole domain, as lists of components. */
+static void push_means(lua_State *l, const run *r)
+{
+    const problem *p = r->p;
+    double *weight = lua_newuserdatauv(l, (size_t)p->space.n_dof * sizeof *weight, 0);
+
+    lua_newtable(l);
+    for (int f = 0; f < p->space.n_field; f++) {
+        double volume;
+
+        if (p->space.field[f].support != PF_ON_MESH)
+            continue;
+        volume = gauge_weights(&p->space, f, weight);
+        lua_newtable(l);
+        for (int c = 0; c < p->space.field[f].n_comp; c++) {
+            double sum = 0;
+
+            for (int64_t d = 0; d < p->space.n_dof; d++)
+                if (p->space.dof_field[d] == f && p->space.dof_comp[d] == c)
+                    sum += weight[d] * p->x[d];
+            lua_pushnumber(l, sum / volume);
+            lua_rawseti(l, -2, c + 1);
+        }
+        lua_setfield(l, -2, p->space.field[f].name);
+    }
+    lua_remove(l, -2);
+}
+
 static void push_argument(lua_State *l, const run *r)
 {
     const table *any = r->forces.n_column ? &r->forces : r->probes.n_column ? &r->probes : &r->particles;
@@ -117,6 +146,8 @@ static void push_argument(lua_State *l, const run *r)
     lua_setfield(l, -3, "last");
     guard_columns(l);
     lua_setfield(l, -2, "series");
+    push_means(l, r);
+    lua_setfield(l, -2, "mean");
     push_errors(l, r->result);
     lua_setfield(l, -2, "errors");
     lua_pushnumber(l, r->p->time.step);

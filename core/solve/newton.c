@@ -73,8 +73,8 @@ int newton_residual(newton_system *s, const newton_time *time, const double *x, 
     return 0;
 }
 
-/* scale[f] as above, from the matrix at x. */
-static void field_scales(newton_system *s, const double *x, double *scale)
+/* scale[f] as above, from the matrix at x; with a step, the unknowns count with what they are about to become. */
+static void field_scales(newton_system *s, const double *x, const double *step, double *scale)
 {
     const space *sp = s->space;
     const double *a = s->linear.value;
@@ -99,7 +99,8 @@ static void field_scales(newton_system *s, const double *x, double *scale)
     for (int64_t i = 0; i < sp->n_free; i++) {
         int f = sp->dof_field[sp->dof_of[i]];
 
-        size[i] = fabs(x[sp->dof_of[i]]) + (most[f] < VANISHES * might[f] ? size[i] : 0);
+        size[i] =
+            fabs(x[sp->dof_of[i]]) + (most[f] < VANISHES * might[f] ? size[i] : 0) + (step ? fabs(step[i]) : 0);
         mean[f] += size[i] * size[i];
         n[f]++;
     }
@@ -265,7 +266,7 @@ int newton_solve(newton_system *s, const newton_time *time, const newton_options
         TRY(status);
         TRY(gauge_detect(s, err));
         gauge_project(s, s->residual);
-        field_scales(s, x, scale);
+        field_scales(s, x, NULL, scale);
         report->iterations = k;
         report->history[k] = field_norms(s, scale, report->norm);
         if (!isfinite(report->history[k])) {
@@ -303,6 +304,8 @@ int newton_solve(newton_system *s, const newton_time *time, const newton_options
             return 0;
         }
         TRY(status);
+        field_scales(s, x, s->step, scale);
+        field_norms(s, scale, report->norm);
         TRY(line_search(s, time, scale, merit(s, report->norm), x, &length, report->norm, err));
         if (length == 0) {
             /* round-off: nothing smaller is to be had */

@@ -69,6 +69,25 @@ static void dfg_3d_1z_is_a_few_per_cent_off_on_its_coarse_mesh(void **state)
     assert_between(summary("cyl3", "cd"), 0.95 * 6.05, 1.05 * 6.25);
 }
 
+/* Jeffery 1922: T = 2 pi (r + 1/r) / shear rate, r = 2. */
+static void an_ellipse_turns_with_jefferys_period(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("run cases/jeffery_ellipse.lua --quiet --out %s/jeffery", scratch()), 0, NULL);
+    print_message("# ellipse in shear: period %.3f, turning at %.4f to %.4f\n",
+                  summary("jeffery", "results.period"), summary("jeffery", "results.slowest"),
+                  summary("jeffery", "results.fastest"));
+    assert_between(summary("jeffery", "results.period") / 15.707963, 0.96, 1.04);
+}
+
+static void two_disks_meet_without_overlap(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("run cases/two_disks.lua --quiet --out %s/two", scratch()), 0, NULL);
+    print_message("# two disks: smallest gap %.3f diameters\n", summary("two", "results.smallest_gap"));
+    assert_between(summary("two", "results.smallest_gap"), -0.01, 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -76,6 +95,8 @@ int main(void)
         cmocka_unit_test(cavity_128_agrees_with_ghia_at_re_400),
         cmocka_unit_test(cavity_128_agrees_with_ghia_at_re_1000),
         cmocka_unit_test(dfg_3d_1z_is_a_few_per_cent_off_on_its_coarse_mesh),
+        cmocka_unit_test(an_ellipse_turns_with_jefferys_period),
+        cmocka_unit_test(two_disks_meet_without_overlap),
         cmocka_unit_test(dfg_2d_2_lies_in_the_published_intervals),
     };
 

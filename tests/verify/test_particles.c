@@ -143,6 +143,59 @@ static void a_neutral_body_does_not_notice_gravity(void **state)
     assert_between(summary("neutral", "results.relative"), 0, 1e-9);
 }
 
+static void a_neutral_body_in_3d_does_not_notice_gravity(void **state)
+{
+    static const char *const column[] = {"u", "v", "w", "omega_x", "omega_y", "omega_z"};
+    char file[300];
+
+    (void)state;
+    assert_ran(plugflow("run %s --quiet --out %s/neutral3",
+                        put_file("neutral3.lua",
+                                 "mesh { box = {{0,0,0},{1,1,1}}, cells = {5,5,5} }\n"
+                                 "fluid { density = 1, viscosity = 0.01, gravity = {3, -9.81, 5} }\n"
+                                 "term \"continuity\" {}\nterm \"momentum\" {}\nparticulate \"conservative\"\n"
+                                 "boundary \"*\" { u = {0,0,0} }\n"
+                                 "particle { shape = ellipsoid { a = 0.3, b = 0.25, c = 0.28 }, density = 1,\n"
+                                 "  at = {0.47, 0.53, 0.51}, orientation = {0.9, 0.1, 0.3, 0.2} }\n"
+                                 "time { step = 1e-2, stop = 1 }\n"),
+                        scratch()),
+               0, NULL);
+    snprintf(file, sizeof file, "%s/neutral3/particles.csv", scratch());
+    for (int k = 0; k < 6; k++) {
+        double *v;
+        int n = csv_column(file, column[k], &v);
+
+        assert_int_equal(n, 100);
+        for (int i = 0; i < n; i++)
+            assert_between(v[i], -1e-9 * 0.11, 1e-9 * 0.11);
+        free(v);
+    }
+}
+
+/* Zick and Homsy (1982): K = 2.008 and 2.810; a sphere cut by two symmetry planes, periodic along the flow. */
+static void drag_of_a_periodic_array_of_spheres(void **state)
+{
+    static const struct {
+        double phi, k;
+    } table[] = {{0.027, 2.008}, {0.064, 2.81}};
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        double e[2];
+
+        for (int n = 0; n < 2; n++) {
+            assert_ran(plugflow("run cases/sphere_array.lua --quiet --set n=%d --set phi=%g --out %s/array",
+                                n ? 12 : 8, table[i].phi, scratch()),
+                       0, NULL);
+            e[n] = summary("array", "results.K") / table[i].k - 1;
+        }
+        print_message("# array of spheres, volume fraction %g: K off by %.2f %% (n = 8), %.2f %% (n = 12)\n",
+                      table[i].phi, 100 * e[0], 100 * e[1]);
+        assert_between(e[1], -0.03, 0.03);
+        assert_between(fabs(e[1]), 0, fabs(e[0]));
+    }
+}
+
 /* The pressure that is written is the full one. */
 static void the_hydrostatic_pressure_is_written(void **state)
 {
@@ -236,6 +289,8 @@ int main(void)
         cmocka_unit_test(a_disk_in_shear_turns_with_half_the_rate),
         cmocka_unit_test(bodies_are_of_second_order_in_time),
         cmocka_unit_test(a_neutral_body_does_not_notice_gravity),
+        cmocka_unit_test(a_neutral_body_in_3d_does_not_notice_gravity),
+        cmocka_unit_test(drag_of_a_periodic_array_of_spheres),
         cmocka_unit_test(the_hydrostatic_pressure_is_written),
         cmocka_unit_test(light_and_heavy_bodies_are_stable_at_one_step),
         cmocka_unit_test(a_disk_falls_and_rests_above_the_floor),
