@@ -62,7 +62,7 @@ static void introduce(const problem *p)
             p->setup_seconds);
 }
 
-static void conclude(const run_result *q, const problem *p, const char *dir)
+static void conclude(const run_result *q, const char *dir)
 {
     fprintf(stderr,
             "  %s in %.3g s: assemble %.2g, factor %.2g (%d), solve %.2g, output %.2g; peak memory %.3g MB\n",
@@ -71,7 +71,6 @@ static void conclude(const run_result *q, const problem *p, const char *dir)
     for (int i = 0; i < q->n_error; i++)
         fprintf(stderr, "  error of %s: L2 %.3e, H1 %.3e (|%s| = %.3g)\n", q->error_norm[i].name,
                 q->error_norm[i].l2, q->error_norm[i].h1, q->error_norm[i].name, q->error_norm[i].l2_exact);
-    (void)p;
     printf("%s/summary.json\n", dir);
 }
 
@@ -122,7 +121,7 @@ int cli_run(const cli *o, error *err)
         if (result.status && o->json && (!status || status == ERR_CONVERGE))
             print_file(dir, "summary.json");
         if (!status && !o->quiet && !o->json)
-            conclude(&result, &k->p, dir);
+            conclude(&result, dir);
         if (!status && cli_stop) {
             error_set(err, 0, "stopped by a signal after %ld steps; what was computed until then is in %s",
                       result.steps, dir);

@@ -3,6 +3,8 @@
  * Meshes as read from files, sizes and orientation of cells, periodic boundaries. */
 #include "mesh/mesh.h"
 
+#include "base/order.h"
+
 #include <plugflow/mesh.h>
 
 #include <math.h>
@@ -81,13 +83,6 @@ typedef struct facet_key {
     uint64_t names;
 } facet_key;
 
-static int by_int(const void *a, const void *b)
-{
-    int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
-
-    return (x > y) - (x < y);
-}
-
 static int by_vertices(const void *a, const void *b)
 {
     return memcmp(((const facet_key *)a)->vertex, ((const facet_key *)b)->vertex, sizeof((facet_key *)0)->vertex);
@@ -113,7 +108,7 @@ static int find_boundary(mesh *m, const pf_mesh_data *data, const char *source, 
             memset(key[i].vertex, 0xff, sizeof key[i].vertex);
             for (int v = 0; v < c->facet_vertices; v++)
                 key[i].vertex[v] = m->cell[e * c->n_node + c->facet[f][v]];
-            qsort(key[i].vertex, (size_t)c->facet_vertices, sizeof(int32_t), by_int);
+            qsort(key[i].vertex, (size_t)c->facet_vertices, sizeof(int32_t), order_int32);
             key[i].cell = (int32_t)e;
             key[i].local = f;
         }
@@ -130,7 +125,7 @@ static int find_boundary(mesh *m, const pf_mesh_data *data, const char *source, 
         memset(wanted.vertex, 0xff, sizeof wanted.vertex);
         for (uint32_t v = 0; v < data->facet_vertices; v++)
             wanted.vertex[v] = (int32_t)data->facet[i * data->facet_vertices + v];
-        qsort(wanted.vertex, data->facet_vertices, sizeof(int32_t), by_int);
+        qsort(wanted.vertex, data->facet_vertices, sizeof(int32_t), order_int32);
         found = bsearch(&wanted, key, (size_t)n_boundary, sizeof *key, by_vertices);
         if (!found)
             return error_set(err, ERR_MESH,
@@ -209,7 +204,7 @@ static int boundary_nodes(mesh *m, int name, int32_t **node, int64_t *n, error *
         for (int i = 0; (m->facet[f].names >> name & 1) && i < m->type->facet_nodes; i++)
             (*node)[k++] =
                 m->cell[(int64_t)m->facet[f].cell * m->type->n_node + m->type->facet[m->facet[f].local][i]];
-    qsort(*node, (size_t)k, sizeof **node, by_int);
+    qsort(*node, (size_t)k, sizeof **node, order_int32);
     *n = 0;
     for (int64_t i = 0; i < k; i++)
         if (i == 0 || (*node)[i] != (*node)[i - 1])

@@ -3,6 +3,8 @@
  * Buckets of cells, so that what is near a body is found at a cost of its size, not the mesh's. */
 #include "particle/particle.h"
 
+#include "base/order.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -81,13 +83,6 @@ int cell_grid_create(cell_grid *g, const mesh *m, error *err)
     return 0;
 }
 
-static int by_int32(const void *a, const void *b)
-{
-    int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
-
-    return (x > y) - (x < y);
-}
-
 int64_t cell_grid_ball(cell_grid *g, const double *x, double radius, int32_t *list)
 {
     int a[3] = {0}, b[3] = {0};
@@ -119,7 +114,7 @@ int64_t cell_grid_ball(cell_grid *g, const double *x, double radius, int32_t *li
                         list[n++] = g->cell[k];
                 }
             }
-    qsort(list, (size_t)n, sizeof *list, by_int32);
+    qsort(list, (size_t)n, sizeof *list, order_int32);
     return n;
 }
 

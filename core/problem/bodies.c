@@ -148,6 +148,7 @@ static int cut(problem *p, error *err)
     int64_t a = 0;
 
     p->n_covered = 0;
+    arena_free(&p->step_memory);
     for (int k = 0; k < p->n_particle; k++) {
         const particle *q = &p->particle[k];
         int64_t first = p->n_covered, n;
@@ -158,7 +159,7 @@ static int cut(problem *p, error *err)
             if (cut_cell(&p->cut, &p->mesh, s->attached_cell[a], q, p->weight + p->n_covered * p->cut.n))
                 p->covered[p->n_covered++] = (int32_t)a;
         n = p->n_covered - first;
-        ARENA_NEW(&p->envelope_memory, cell, n + 1, err);
+        ARENA_NEW(&p->step_memory, cell, n + 1, err);
         for (int64_t i = 0; i < n; i++) {
             cell[i] = s->attached_cell[p->covered[first + i]];
             for (int j = 0; j < p->cut.n; j++)
@@ -239,7 +240,8 @@ int problem_cut(problem *p, double *x, error *err)
     }
     if (again)
         TRY(attach(p, err));
-    TRY(cut(p, err));
+    if (again || moved || p->n_covered == 0) /* bodies that stand are cut as they were */
+        TRY(cut(p, err));
     activate(p, x);
     TRY(problem_find_pairs(p, err));
     if (p->system.linear.solver)

@@ -4,6 +4,8 @@
  * line names) first; where two lines meet in a node the later one holds. */
 #include "problem/problem.h"
 
+#include "base/order.h"
+
 #include <lauxlib.h>
 
 #include <math.h>
@@ -201,13 +203,6 @@ static int attach_facets(problem *p, error *err)
     return 0;
 }
 
-static int by_int32(const void *a, const void *b)
-{
-    int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
-
-    return (x > y) - (x < y);
-}
-
 /* Adds the nodes of the line's facets that carry the field as one set; with axis >= 0 only facets
  * whose normal lies along that axis. */
 static int add_set(problem *p, const boundary_line *l, int field, int comp, const value *v, const int8_t *axis_of,
@@ -229,7 +224,7 @@ static int add_set(problem *p, const boundary_line *l, int field, int comp, cons
         for (int i = 0; l->facet[f] && (axis < 0 || axis_of[f] == axis) && i < n_local; i++)
             d->node[n++] =
                 m->cell[(int64_t)m->facet[f].cell * m->type->n_node + m->type->facet[m->facet[f].local][i]];
-    qsort(d->node, (size_t)n, sizeof *d->node, by_int32);
+    qsort(d->node, (size_t)n, sizeof *d->node, order_int32);
     for (int64_t i = 0; i < n; i++)
         if (i == 0 || d->node[i] != d->node[d->n - 1])
             d->node[d->n++] = d->node[i];

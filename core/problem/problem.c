@@ -137,6 +137,7 @@ void problem_destroy(problem *p)
     cell_grid_destroy(&p->grid);
     system_destroy(&p->system);
     arena_free(&p->envelope_memory);
+    arena_free(&p->step_memory);
     space_destroy(&p->space);
     mesh_destroy(&p->mesh);
     arena_free(&p->memory);

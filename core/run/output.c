@@ -389,7 +389,7 @@ int output_fields(run *r, double t, error *err)
     r->file_time[r->n_file++] = t;
     snprintf(path, sizeof path, "%s/fields.pvd", r->dir);
     TRY(vtu_write_pvd(path, (const char *const *)r->file, r->file_time, r->n_file, err));
-    TRY(particles_outline(r, t, err));
+    TRY(particles_outline(r, err));
     r->result->seconds_output += solve_seconds() - start;
     return 0;
 }

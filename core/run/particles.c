@@ -25,6 +25,7 @@ int particles_open(run *r, error *err)
 
     if (r->p->n_particle == 0)
         return 0;
+    ARENA_NEW(&r->p->memory, r->body_row, r->p->n_particle + 22, err);
     snprintf(path, sizeof path, "%s/particles.csv", r->dir);
     return r->p->dim == 2 ? table_create(&r->particles, path, columns_2d, 12, err)
                           : table_create(&r->particles, path, columns_3d, 22, err);
@@ -68,17 +69,16 @@ int particles_write(run *r, double t, error *err)
     problem *p = r->p;
     int n_spin = p->dim == 2 ? 1 : 3;
     newton_time fluid = r->last;
-    double *row, *force, *active;
+    double *force, *active = r->body_row, *row = r->body_row + p->n_particle;
 
     if (p->n_particle == 0)
         return 0;
     fluid.only = PF_FLUID_FORCE;
-    ARENA_NEW(&p->envelope_memory, active, p->n_particle, err);
+    memset(active, 0, (size_t)p->n_particle * sizeof *active);
     TRY(share_nodes(p, err));
     count_active(p, active);
     TRY(newton_residual(&p->system, &fluid, p->x, p->system.trial, err));
     force = p->system.trial;
-    ARENA_NEW(&p->envelope_memory, row, r->particles.n_column, err);
     for (int k = 0; k < p->n_particle; k++) {
         const particle *q = &p->particle[k];
         int64_t u = problem_particle_dof(p, k, PF_VECTOR), w = problem_particle_dof(p, k, PF_SPIN);
@@ -131,7 +131,7 @@ static void add_array(text *t, const char *name, const char *type, int width)
 }
 
 /* A closed line a body, with a spoke from the centre along its x axis that shows how it is turned. */
-int particles_outline(run *r, double t, error *err)
+int particles_outline(run *r, error *err)
 {
     const problem *p = r->p;
     char path[4600], name[40], **more;
@@ -189,7 +189,6 @@ int particles_outline(run *r, double t, error *err)
         return error_memory(err, path, 0);
     r->body_file = more;
     r->n_body_file++;
-    (void)t;
     snprintf(path, sizeof path, "%s/particles.pvd", r->dir);
     return vtu_write_pvd(path, (const char *const *)r->body_file, r->file_time, r->n_body_file, err);
 }

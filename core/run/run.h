@@ -49,6 +49,7 @@ typedef struct run {
     run_result *result;
     table forces, probes, particles;
     newton_time last; /* of the state that is written */
+    double *body_row; /* room for a row of particles.csv, and a count a body */
     int n_body_file;
     char **body_file;
     struct located *probe_at, **line_at;
@@ -69,8 +70,8 @@ int output_fields(run *r, double t, error *err); /* a .vtu and the .pvd         
 int output_lines(run *r, double t, error *err);
 int output_event(run *r, const char *event, const char *fields_json, error *err);
 int particles_open(run *r, error *err);
-int particles_write(run *r, double t, error *err);   /* particles.csv, every step          */
-int particles_outline(run *r, double t, error *err); /* a .vtp for the file of fields just written */
+int particles_write(run *r, double t, error *err); /* particles.csv, every step          */
+int particles_outline(run *r, error *err);         /* a .vtp for the file of fields just written */
 int output_summary(run *r, error *err);
 void output_close(run *r);
 

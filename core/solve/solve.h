@@ -52,7 +52,7 @@ typedef struct gauge {
     int free[SPACE_MAX_FIELDS];       /* the field has a free constant                    */
     double *weight[SPACE_MAX_FIELDS]; /* [n_dof] integral of each basis function         */
     double volume;
-    double defect[SPACE_MAX_FIELDS]; /* what was taken out of the residual, relative     */
+    double defect[SPACE_MAX_FIELDS]; /* what was taken out of the residual               */
 } gauge;
 
 /* --- Newton (newton.c) --- */

@@ -4,15 +4,10 @@
  * offset per pair of carriers of a cell locates a whole block of entries in the matrix. */
 #include "space/space.h"
 
+#include "base/order.h"
+
 #include <stdlib.h>
 #include <string.h>
-
-static int by_int32(const void *a, const void *b)
-{
-    int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
-
-    return (x > y) - (x < y);
-}
 
 static int number_free(space *s, error *err)
 {
@@ -81,7 +76,7 @@ static int64_t neighbours(const space *s, const int64_t *start, const int32_t *c
         }
     for (int64_t k = 0; k < n; k++)
         seen[list[k]] = 0;
-    qsort(list, (size_t)n, sizeof *list, by_int32);
+    qsort(list, (size_t)n, sizeof *list, order_int32);
     return n;
 }
 
