@@ -6,6 +6,8 @@ local n = param("n", 20, "cells in each direction; D/h = 0.4 n")
 local mode = param("mode", "tr", "tr: the disk moves along x; rot: it rotates")
 local x0, y0 = param("x0", 0.013, "centre"), param("y0", 0.0091, "centre")
 local shape = param("shape", "quads", "quads or triangles")
+local formulation = param("formulation", "conservative", "conservative or appendix")
+local alpha = param("alpha", 1e5, "of the appendix, kg/m^3/s")
 local R = 0.2
 
 local function field(x, y)
@@ -20,13 +22,17 @@ fluid { density = 1, viscosity = 1 }
 
 term "continuity" {}
 term "momentum" { without = {"convection"} }
-particulate "conservative"
+particulate(formulation, formulation == "appendix" and {alpha = alpha} or nil)
 
 boundary "*" { u = field }
 
 particle { shape = disk { radius = R }, density = 1, at = {x0, y0}, motion = "fixed",
            velocity = {mode == "rot" and 0 or 0.5 - math.log(R), 0}, spin = mode == "rot" and 1 or 0 }
 
+output { forces = {"left", "right", "bottom", "top"} }
+
 results(function(r)
-  return { force = -r.last["p0.fx"] / (4 * math.pi), torque = -r.last["p0.torque"] / (4 * math.pi * R * R) }
+  local box = 0 -- what the fluid does to the box is the opposite of what the disk does to the fluid
+  for _, side in ipairs {"left", "right", "bottom", "top"} do box = box + r.last[side .. ".fx"] end
+  return { force_on_box = box / (4 * math.pi), force = -r.last["p0.fx"] / (4 * math.pi), torque = -r.last["p0.torque"] / (4 * math.pi * R * R) }
 end)

@@ -26,10 +26,22 @@ typedef struct near_pair {
     double gap, normal[3], size;
 } near_pair;
 
+/* Where the bodies are now: points and weights of the classes that follow them.  Weights are of the
+ * reference cell, [n][rule->n]. */
+typedef struct body_points {
+    const particle *particle;
+    const cut_rule *rule;
+    const uint8_t *off;     /* [n_cell] not 0: a body covers the cell or a part of it    */
+    int64_t n_solid, n_cut; /* attached pairs (space.h) covered; cells cut by a surface  */
+    const int32_t *solid, *cut;
+    const double *solid_weight, *cut_weight; /* inside of the body; outside of all bodies */
+} body_points;
+
 /* A term that the case switched on. */
 typedef struct term_use {
     const term_plugin *plugin;
     const pf_term *term;
+    int where; /* term->where, or PF_FLUID where the case narrows it */
     void *params;
     enum term_derivative how;
     double factor;                     /* 1, or less while it is faded in             */
@@ -66,7 +78,9 @@ typedef struct assembly_class {
     int32_t *cell, *facet;
     int64_t *group;        /* of each item: the carriers that it adds to (see space.h)       */
     const near_pair *pair; /* PF_PAIR: of each item */
-    const double *weight;  /* PF_SOLID: reference weights of each item, [n_item][n_q]         */
+    int follows;           /* items come with the bodies */
+    const double *weight;  /* of such items: reference weights, [n_item][n_q]                 */
+    const uint8_t *off;    /* PF_FLUID, whole cells: [n_cell] 1: this cell is none            */
     int64_t n_batch;
     int64_t *batch; /* first item of each batch, [n_batch + 1]                  */
     int n_slab;
@@ -88,7 +102,7 @@ typedef struct assembly_class {
     int order_used[3], grad_used[3];
     double data_time;
     int data_ready;
-    arena item_memory; /* PF_SOLID: what changes with the bodies                     */
+    arena item_memory; /* what changes with the bodies                               */
 } assembly_class;
 
 typedef struct assembly {
@@ -102,10 +116,10 @@ typedef struct assembly {
 
 /* What a class is made of. */
 typedef struct assembly_spec {
-    int where;               /* PF_CELL or PF_FACET                                     */
+    int where;               /* enum pf_where                                           */
     int boundary;            /* PF_FACET: boundary name, or -1 for all                  */
     const uint8_t *facet_on; /* PF_FACET: [mesh->n_facet] 1 = the facet belongs to it   */
-    const cut_rule *solid;   /* PF_SOLID: its points                                    */
+    const cut_rule *rule;    /* PF_SOLID, PF_FLUID in cut cells: the points             */
     int n_use;
     term_use **use;
 } assembly_spec;
@@ -122,9 +136,8 @@ int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int 
 /* Tells the PF_PAIR classes which bodies are near something. */
 int assembly_set_pairs(assembly *a, const near_pair *pair, int64_t n, error *err);
 
-/* Tells the PF_SOLID classes which attached pairs (space.h) a body covers, with weights [n][rule->n]. */
-int assembly_set_solid(assembly *a, const particle *particle, const cut_rule *rule, int64_t n,
-                       const int32_t *attached, const double *weight, error *err);
+/* Tells the classes that follow the bodies where these are. */
+int assembly_set_bodies(assembly *a, const body_points *b, error *err);
 
 /* residual[n_dof] (of all unknowns, fixed ones too: their rows are reactions) and, unless NULL,
  * value[nnz] of the matrix over free unknowns; both are overwritten.  With `diagnose` every

@@ -88,7 +88,7 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
     return 0;
 }
 
-static int place_rules(assembly *a, assembly_class *c, const cut_rule *solid, error *err)
+static int place_rules(assembly *a, assembly_class *c, const cut_rule *cut, error *err)
 {
     const fe_cell *type = a->space->mesh->type;
     int n_rule = c->where == PF_FACET ? type->n_facet : 1;
@@ -100,9 +100,9 @@ static int place_rules(assembly *a, assembly_class *c, const cut_rule *solid, er
             TRY(fe_rule_facet(type, f, FACET_DEGREE, r, c->tangent[f], &c->orient[f], err));
         } else if (c->where == PF_PAIR) {
             r->n = 1; /* any point of the cell: weight 1, and no field of the mesh */
-        } else if (c->where == PF_SOLID) {
-            r->n = solid->n;
-            memcpy(r->x, solid->x, (size_t)solid->n * sizeof *r->x);
+        } else if (cut) {
+            r->n = cut->n;
+            memcpy(r->x, cut->x, (size_t)cut->n * sizeof *r->x);
         } else {
             TRY(fe_rule_cell(type, CELL_DEGREE, r, err));
         }
@@ -197,9 +197,11 @@ static int place_items(assembly *a, assembly_class *c, const assembly_spec *spec
 int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err)
 {
     const space *s = a->space;
-    int serial = spec->where != PF_CELL;
+    int serial;
 
     c->where = spec->where;
+    c->follows = spec->rule != NULL || spec->where == PF_PAIR;
+    serial = c->follows || c->where == PF_FACET;
     memset(c->block, 0xff, sizeof c->block);
     for (int i = 0; i < spec->n_use; i++) {
         if (i == ASSEMBLE_MAX_USES)
@@ -217,8 +219,8 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
             }
     }
     c->n_slab = serial ? 1 : a->n_thread;
-    TRY(place_rules(a, c, spec->solid, err));
-    if (c->where == PF_SOLID || c->where == PF_PAIR)
+    TRY(place_rules(a, c, spec->rule, err));
+    if (c->follows)
         return 0; /* its items come with the bodies */
     TRY(place_items(a, c, spec, err));
     for (int i = 0; i < c->n_input; i++)
@@ -311,25 +313,26 @@ int assembly_set_pairs(assembly *a, const near_pair *pair, int64_t n, error *err
     return 0;
 }
 
-int assembly_set_solid(assembly *a, const particle *particle, const cut_rule *rule, int64_t n,
-                       const int32_t *attached, const double *weight, error *err)
+int assembly_set_bodies(assembly *a, const body_points *b, error *err)
 {
     const space *s = a->space;
 
-    a->particle = particle;
+    a->particle = b->particle;
     for (int k = 0; k < a->n_class; k++) {
         assembly_class *c = &a->class_[k];
+        int solid = c->where == PF_SOLID;
+        int64_t n = solid ? b->n_solid : b->n_cut;
 
-        if (c->where != PF_SOLID)
+        if (c->where == PF_FLUID && !c->follows)
+            c->off = b->off;
+        if (!solid && (c->where != PF_FLUID || !c->follows))
             continue;
         TRY(renew_items(c, n, err));
-        c->weight = weight;
+        c->weight = solid ? b->solid_weight : b->cut_weight;
         for (int64_t i = 0; i < n; i++) {
-            c->cell[i] = s->attached_cell[attached[i]];
-            c->group[i] = s->mesh->n_cell + attached[i];
+            c->cell[i] = solid ? s->attached_cell[b->solid[i]] : b->cut[i];
+            c->group[i] = solid ? s->mesh->n_cell + b->solid[i] : b->cut[i];
         }
-        if (rule->n != c->n_q)
-            return error_set(err, ERR_CASE, "the points of a body do not fit its class");
     }
     return 0;
 }

@@ -114,12 +114,13 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
     const mesh *m = a->space->mesh;
     const fe_cell *type = m->type;
     int dim = m->dim, nq = c->n_q, f = c->facet[c->batch[batch]];
-    v8 h;
+    v8 h, on;
 
     for (int l = 0; l < 8; l++) {
         int64_t cell = c->cell[item_of(c, batch, l)];
 
         h[l] = m->h[cell];
+        on[l] = !c->off || !c->off[cell];
         for (int i = 0; i < type->n_node; i++)
             for (int k = 0; k < dim; k++)
                 w->x_node[k * type->n_node + i][l] = m->x[(int64_t)m->cell[cell * type->n_node + i] * dim + k];
@@ -140,7 +141,7 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
             for (int l = 0; l < 8; l++)
                 w->w[q][l] = det[l] * c->weight[item_of(c, batch, l) * nq + q];
         else
-            w->w[q] = det * c->rule[f].w[q];
+            w->w[q] = det * c->rule[f].w[q] * on;
         w->h[q] = h;
         for (int k = 0; k < dim; k++) {
             v8 x = {0};

@@ -94,7 +94,12 @@ static int row_fields(const assembly_class *c, int *list)
 static int run_batch(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                      int diagnose, workspace *w, double *residual, double *value)
 {
-    int field[ASSEMBLE_MAX_TESTS], n = row_fields(c, field);
+    int field[ASSEMBLE_MAX_TESTS], n = row_fields(c, field), on = !c->off;
+
+    for (int64_t i = c->batch[batch]; i < c->batch[batch + 1]; i++)
+        on |= c->off && !c->off[c->cell[i]];
+    if (!on)
+        return 0;
 
     points_geometry(a, c, batch, w);
     points_inputs(a, c, s, batch, w);

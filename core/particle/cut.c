@@ -181,6 +181,8 @@ int cut_rule_create(cut_rule *r, const fe_cell *type, error *err)
 
         fe_basis(type, 2, r->fine[s], r->fine_basis + s * type->n_node, ignored);
         project(r, r->fine[s], r->projection + s * r->n);
+        for (int q = 0; q < r->n; q++)
+            r->whole[q] += r->fine_weight[s] * r->projection[s * r->n + q];
     }
     return 0;
 }
@@ -205,7 +207,7 @@ static void map(const cut_rule *r, const mesh *m, int32_t cell, int64_t s, doubl
 int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, double *w)
 {
     double rotation[3][3];
-    int any = 0;
+    int64_t inside = 0;
 
     particle_rotation(p, rotation);
     memset(w, 0, (size_t)r->n * sizeof *w);
@@ -216,11 +218,11 @@ int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, 
         map(r, m, cell, s, x);
         if (particle_level(p, (const double(*)[3])rotation, x) >= 0)
             continue;
-        any = 1;
+        inside++;
         for (int q = 0; q < r->n; q++)
             w[q] += r->fine_weight[s] * l[q];
     }
-    return any;
+    return inside == 0 ? 0 : inside < r->n_fine ? 1 : 2;
 }
 
 /* Position relative to the body's centre and Jacobian determinant at interpolation point q. */

@@ -77,8 +77,9 @@ typedef struct cut_rule {
     const fe_cell *type;
     int n;
     double x[CUT_MAX_POINTS][3];
-    double *inverse; /* simplices: inverse Vandermonde matrix, [n][n] */
-    int n_fine;      /* points of the fine rule on a cell */
+    double whole[CUT_MAX_POINTS]; /* reference weights of the whole cell */
+    double *inverse;              /* simplices: inverse Vandermonde matrix, [n][n] */
+    int n_fine;                   /* points of the fine rule on a cell */
     double (*fine)[3], *fine_weight;
     double *fine_basis; /* second-order basis at the fine points, [n_fine][n_node] */
     double *projection; /* L_q at the fine points, [n_fine][n] */
@@ -88,7 +89,8 @@ typedef struct cut_rule {
 int cut_rule_create(cut_rule *r, const fe_cell *type, error *err);
 void cut_rule_destroy(cut_rule *r);
 
-/* Weights w[rule.n] (reference measure) of the part of the cell inside the particle; 0 if there is none. */
+/* Weights w[rule.n] (reference measure) of the part of the cell inside the particle; 0 if there is
+ * none, 2 if the whole cell is inside. */
 int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, double *w);
 
 /* Multiplies the weights of a body that lies inside the mesh by 1 + c0 + c.r + r.C.r so that volume,

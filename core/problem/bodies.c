@@ -117,6 +117,11 @@ static int attach(problem *p, error *err)
     s->n_attached = n;
     ARENA_NEW(&p->envelope_memory, p->weight, n * p->cut.n + 1, err);
     ARENA_NEW(&p->envelope_memory, p->covered, n + 1, err);
+    ARENA_NEW(&p->envelope_memory, p->whole_inside, n + 1, err);
+    ARENA_NEW(&p->envelope_memory, p->cut_weight, n * p->cut.n + 1, err);
+    ARENA_NEW(&p->envelope_memory, p->cut_cell, n + 1, err);
+    ARENA_NEW(&p->envelope_memory, p->fluid_off, p->mesh.n_cell, err);
+    p->n_covered = 0;
     for (int64_t d = 0; d < s->n_dof; d++) /* bit 1: restricted, and away from all bodies */
         s->fixed[d] = (uint8_t)((s->fixed[d] & 1) | (is_restricted(p, s->dof_field[d]) ? 2 : 0));
     for (int f = 0; f < s->n_field; f++)
@@ -154,10 +159,14 @@ static int cut(problem *p, error *err)
         int64_t first = p->n_covered, n;
         double volume = 0, fraction;
         int32_t *cell;
+        int inside;
 
         for (; a < s->n_attached && s->attached_particle[a] == k; a++)
-            if (cut_cell(&p->cut, &p->mesh, s->attached_cell[a], q, p->weight + p->n_covered * p->cut.n))
+            if ((inside =
+                     cut_cell(&p->cut, &p->mesh, s->attached_cell[a], q, p->weight + p->n_covered * p->cut.n))) {
+                p->whole_inside[p->n_covered] = inside == 2;
                 p->covered[p->n_covered++] = (int32_t)a;
+            }
         n = p->n_covered - first;
         ARENA_NEW(&p->step_memory, cell, n + 1, err);
         for (int64_t i = 0; i < n; i++) {
@@ -177,6 +186,36 @@ static int cut(problem *p, error *err)
         if (fraction == 1 && fabs(volume / q->shape.volume - 1) > 0.05)
             fraction = 0;
         TRY(cut_correct(&p->cut, &p->mesh, q, cell, p->weight + first * p->cut.n, n, fraction, err));
+    }
+    return 0;
+}
+
+/* What the bodies leave of each cell that a surface cuts: the whole less the part inside. */
+static int outside(problem *p, error *err)
+{
+    const space *s = &p->space;
+    int n = p->cut.n;
+    int32_t *at; /* [n_cell] index + 1 among the cut cells; 0: not yet */
+
+    ARENA_NEW(&p->step_memory, at, p->mesh.n_cell, err);
+    memset(p->fluid_off, 0, (size_t)p->mesh.n_cell);
+    p->n_cut = 0;
+    for (int64_t k = 0; k < p->n_covered; k++)
+        if (p->whole_inside[k])
+            p->fluid_off[s->attached_cell[p->covered[k]]] = 2;
+    for (int64_t k = 0; k < p->n_covered; k++) {
+        int32_t e = s->attached_cell[p->covered[k]];
+
+        if (p->fluid_off[e] == 2)
+            continue;
+        if (!at[e]) {
+            p->fluid_off[e] = 1;
+            p->cut_cell[p->n_cut] = e;
+            memcpy(p->cut_weight + p->n_cut * n, p->cut.whole, (size_t)n * sizeof *p->cut_weight);
+            at[e] = (int32_t)++p->n_cut;
+        }
+        for (int q = 0; q < n; q++)
+            p->cut_weight[(at[e] - 1) * n + q] -= p->weight[k * n + q];
     }
     return 0;
 }
@@ -242,6 +281,8 @@ int problem_cut(problem *p, double *x, error *err)
         TRY(attach(p, err));
     if (again || moved || p->n_covered == 0) /* bodies that stand are cut as they were */
         TRY(cut(p, err));
+    if (again || moved || p->n_cut == 0)
+        TRY(outside(p, err));
     activate(p, x);
     TRY(problem_find_pairs(p, err));
     if (p->system.linear.solver)
@@ -249,8 +290,17 @@ int problem_cut(problem *p, double *x, error *err)
     if (p->system.linear.solver && moved)
         linear_forget(&p->system.linear); /* the old factors know the old cells */
     if (p->system.linear.solver)
-        TRY(assembly_set_solid(&p->system.assembly, p->particle, &p->cut, p->n_covered, p->covered, p->weight,
-                               err));
+        TRY(assembly_set_bodies(&p->system.assembly,
+                                &(body_points){.particle = p->particle,
+                                               .rule = &p->cut,
+                                               .off = p->fluid_off,
+                                               .n_solid = p->n_covered,
+                                               .n_cut = p->n_cut,
+                                               .solid = p->covered,
+                                               .cut = p->cut_cell,
+                                               .solid_weight = p->weight,
+                                               .cut_weight = p->cut_weight},
+                                err));
     p->geometry_seconds += solve_seconds() - start;
     return 0;
 }

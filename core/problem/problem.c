@@ -21,27 +21,21 @@ static int make_periodic(problem *p, error *err)
     return 0;
 }
 
-/* One class for the cells, one for each boundary line with fluxes, one for terms on all facets. */
+/* Terms by the points that they act on: one class for the cells, one each for what follows the bodies, one
+ * for terms on all facets, one for each boundary line with fluxes. */
 static int make_system(problem *p, error *err)
 {
-    assembly_spec spec[PROBLEM_MAX_LINES + 4] = {{0}};
-    term_use *cell[ASSEMBLE_MAX_USES], *facet[ASSEMBLE_MAX_USES], *solid[ASSEMBLE_MAX_USES],
-        *pair[ASSEMBLE_MAX_USES];
+    assembly_spec spec[PROBLEM_MAX_LINES + 8] = {{0}};
+    term_use *on[PF_PAIR + 1][ASSEMBLE_MAX_USES];
     uint8_t *all;
-    int n = 1, n_facet = 0, n_solid = 0, n_pair = 0;
+    int n = 0, n_on[PF_PAIR + 1] = {0};
 
-    spec[0] = (assembly_spec){.where = PF_CELL, .use = cell};
     for (int i = 0; i < p->n_use; i++) {
         term_use *u = &p->use[i];
+        int where = u->where == PF_FLUID && p->n_particle == 0 ? PF_CELL : u->where;
 
-        if (u->term->where == PF_CELL || u->term->where == PF_FLUID)
-            cell[spec[0].n_use++] = u;
-        else if (u->term->where == PF_SOLID)
-            solid[n_solid++] = u;
-        else if (u->term->where == PF_PAIR)
-            pair[n_pair++] = u;
-        else if (!(u->term->flags & PF_BY_BOUNDARY))
-            facet[n_facet++] = u;
+        if (!(u->term->flags & PF_BY_BOUNDARY))
+            on[where][n_on[where]++] = u;
     }
     ARENA_NEW(&p->memory, p->continuation.use, p->n_use + p->n_line * ASSEMBLE_MAX_USES + 1, err);
     p->continuation.n_use = 0;
@@ -52,15 +46,20 @@ static int make_system(problem *p, error *err)
         for (int k = 0; k < p->line[i].n_flux; k++)
             if (p->line[i].flux[k]->term->flags & PF_CONTINUATION)
                 p->continuation.use[p->continuation.n_use++] = p->line[i].flux[k];
-    if (n_solid)
-        spec[n++] = (assembly_spec){.where = PF_SOLID, .use = solid, .n_use = n_solid, .solid = &p->cut};
-    if (n_pair)
-        spec[n++] = (assembly_spec){.where = PF_PAIR, .use = pair, .n_use = n_pair};
-    if (n_facet) {
-        ARENA_NEW(&p->memory, all, p->mesh.n_facet, err);
-        memset(all, 1, (size_t)p->mesh.n_facet);
-        spec[n++] = (assembly_spec){.where = PF_FACET, .use = facet, .n_use = n_facet, .facet_on = all};
-    }
+    ARENA_NEW(&p->memory, all, p->mesh.n_facet + 1, err);
+    memset(all, 1, (size_t)p->mesh.n_facet);
+    for (int where = PF_CELL; where <= PF_PAIR; where++)
+        if (n_on[where]) {
+            spec[n++] = (assembly_spec){.where = where,
+                                        .use = on[where],
+                                        .n_use = n_on[where],
+                                        .facet_on = all,
+                                        .rule = where == PF_SOLID ? &p->cut : NULL};
+            if (where == PF_FLUID) { /* whole cells, and then cut ones */
+                spec[n] = spec[n - 1];
+                spec[n++].rule = &p->cut;
+            }
+        }
     for (int i = 0; i < p->n_line; i++)
         if (p->line[i].n_flux)
             spec[n++] = (assembly_spec){.where = PF_FACET,

@@ -87,13 +87,18 @@ typedef struct problem {
     particle *remembered[2]; /* [n_particle] places to come back to                    */
     cell_grid grid;
     cut_rule cut;
-    double *envelope; /* [n_particle][3] centre when cells were attached        */
-    double *whole;    /* [n_dof] int phi_i^2 over the domain, restricted fields */
-    double *inside;   /* [n_dof] the same over the bodies                       */
-    double *weight;   /* of the covered cells                                   */
-    int32_t *covered; /* attached pairs that a body covers                      */
+    double *envelope;      /* [n_particle][3] centre when cells were attached        */
+    double *whole;         /* [n_dof] int phi_i^2 over the domain, restricted fields */
+    double *inside;        /* [n_dof] the same over the bodies                       */
+    double *weight;        /* of the covered cells                                   */
+    int32_t *covered;      /* attached pairs that a body covers                      */
+    uint8_t *whole_inside; /* of each of them: the body covers all of the cell             */
     int64_t n_covered;
-    near_pair *pair; /* bodies near something                                  */
+    uint8_t *fluid_off; /* [n_cell] 1: a body covers a part of the cell; 2: all of it */
+    int64_t n_cut;
+    int32_t *cut_cell;  /* cells that a surface cuts                                    */
+    double *cut_weight; /* of their part outside of all bodies                          */
+    near_pair *pair;    /* bodies near something                                  */
     int64_t n_pair, pair_room;
     unsigned walls;          /* bit k: side k of the box is a wall */
     double pair_range;       /* gap up to which pairs are looked for                   */

@@ -103,7 +103,7 @@ static int add_use(problem *p, const term_plugin *plugin, const pf_term *t, erro
 
     if (p->n_use == ASSEMBLE_MAX_USES)
         return error_set(err, ERR_CASE, "%s: more than %d terms", p->c->path, ASSEMBLE_MAX_USES);
-    *u = (term_use){.plugin = plugin, .term = t, .factor = 1};
+    *u = (term_use){.plugin = plugin, .term = t, .where = (int)t->where, .factor = 1};
     u->params = arena_alloc(&p->memory, t->params_bytes ? t->params_bytes : 1, 1);
     if (!u->params)
         return error_memory(err, "parameters", t->params_bytes);
@@ -130,13 +130,13 @@ static void check_names(problem *p, reader *r, const char *key, const term_plugi
         }
 }
 
-static int read_term(problem *p, const case_block *b, reader *fluid, error *err)
+static int read_term(problem *p, const case_block *b, reader *fluid, int outside, error *err)
 {
     static const char *const over_name[] = {"all", "fluid", NULL};
     const term_plugin *plugin;
     const char *dot = strchr(b->name, '.'), *single = dot ? dot + 1 : NULL, *without[32];
     char name[128], *what = arena_alloc(&p->memory, strlen(b->name) + 10, 1);
-    int n_without, how = 0, over = 0, found = 0, first = p->n_use;
+    int n_without, how = 0, over = outside, found = 0, first = p->n_use;
     reader own;
 
     snprintf(name, sizeof name, "%.*s", dot ? (int)(dot - b->name) : (int)strlen(b->name), b->name);
@@ -149,7 +149,8 @@ static int read_term(problem *p, const case_block *b, reader *fluid, error *err)
     if (!single && reader_strings(&own, "without", "integrators to leave out", 32, without, &n_without) > 0)
         check_names(p, &own, "without", plugin, without, n_without);
     reader_choice(&own, "jacobian", "how the derivatives are computed", derivative_name, &how);
-    reader_choice(&own, "over", "part of the domain", over_name, &over);
+    reader_choice(&own, "over", "part of the domain: all of it, or outside of the bodies (fluid)", over_name,
+                  &over);
     for (uint32_t i = 0; i < plugin->d.n_term; i++) {
         const pf_term *t = &plugin->term[i];
 
@@ -159,6 +160,8 @@ static int read_term(problem *p, const case_block *b, reader *fluid, error *err)
         found = 1;
         TRY(add_use(p, plugin, t, err));
         p->use[p->n_use - 1].how = (enum term_derivative)how;
+        if (over && t->where == PF_CELL)
+            p->use[p->n_use - 1].where = PF_FLUID;
     }
     if (single && !found)
         case_wrong(p->c, b, NULL, "%s: plugin \"%s\" has no term \"%s\"; plugflow describe %s lists its terms",
@@ -216,10 +219,14 @@ static int collect_fields(problem *p, error *err)
 
 int problem_read_terms(problem *p, error *err)
 {
+    static const char *const regions[] = {"everywhere", "outside", NULL};
     const case_block *b;
+    int outside = 0;
     reader fluid;
 
     reader_open(&fluid, p->c, case_find(p->c, "fluid", 0), "fluid");
+    reader_choice(&fluid, "region", "where the terms on cells act: everywhere, or outside of the bodies", regions,
+                  &outside);
     if (!case_find(p->c, "term", 0))
         case_wrong(p->c, NULL, NULL,
                    "the case has no term; add lines like term \"continuity\" {} and term \"momentum\" {}");
@@ -228,7 +235,7 @@ int problem_read_terms(problem *p, error *err)
             case_wrong(p->c, b, NULL, "term: expected a name in quotes, as in term \"momentum\" {}");
             continue;
         }
-        TRY(read_term(p, b, &fluid, err));
+        TRY(read_term(p, b, &fluid, outside, err));
     }
     reader_close(&fluid);
     return collect_fields(p, err);

@@ -94,6 +94,17 @@ static void warn_defect(run *r)
         }
 }
 
+/* Says so, once, if the equations leave unknowns open. */
+static void warn_singular(run *r, const newton_report *report)
+{
+    if (report->singular && !r->warned_singular)
+        say(r,
+            "  warning: the equations do not determine all unknowns (%s); the residual has converged, some "
+            "unknowns (pressure inside bodies?) are arbitrary",
+            report->why);
+    r->warned_singular |= report->singular;
+}
+
 static int steady(run *r, error *err)
 {
     problem *p = r->p;
@@ -120,6 +131,7 @@ static int steady(run *r, error *err)
                          "continuation = { viscosity = "
                          "... } }), or make the case unsteady with time {}",
                          report.why);
+    warn_singular(r, &report);
     say(r, "  converged in %d iterations, observed order %.1f, |r| / |r_before|^2 = %.2g", report.iterations,
         report.order, report.ratio);
     gauge_zero_mean(&p->system, p->x);
@@ -142,6 +154,7 @@ static int one_step(run *r, stepper *s, double next, error *err)
     r->result->steps++;
     r->result->newton_iterations = s->newton_iterations;
     r->result->halved = s->n_halved;
+    warn_singular(r, &s->report);
     memcpy(p->x, s->x, (size_t)p->space.n_dof * sizeof *p->x);
     gauge_zero_mean(&p->system, p->x);
     memcpy(r->residual, s->residual, (size_t)p->space.n_dof * sizeof *r->residual);

@@ -300,6 +300,8 @@ int newton_solve(newton_system *s, const newton_time *time, const newton_options
         gauge_pin(s);
         status = linear_solve(&s->linear, s->rhs, s->step, o->linear_tolerance, err);
         if (status && err->retry) {
+            /* what the equations determine has converged; some unknowns they do not */
+            report->converged = report->singular = k > 0 && report->history[k] <= 100 * o->tolerance;
             snprintf(report->why, sizeof report->why, "%.280s", err->text);
             return 0;
         }
