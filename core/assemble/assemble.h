@@ -20,10 +20,12 @@ typedef double v8 __attribute__((vector_size(64)));
 
 enum { ASSEMBLE_MAX_INPUTS = 32, ASSEMBLE_MAX_TESTS = 16, ASSEMBLE_MAX_USES = 32, ASSEMBLE_PAD = 3 };
 
-/* A body and what is near it. */
+/* Two bodies near each other, or a body and a wall. */
 typedef struct near_pair {
-    int32_t attached; /* any attached pair of the body                       */
-    double gap, normal[3], size;
+    int64_t group;                   /* of their carriers (space.h)                        */
+    int32_t particle;                /* the first of the two */
+    double gap, h, at[3], normal[3]; /* normal: from the other to the first; at: in the middle of the gap */
+    double size[2], density[2];      /* of each; of a wall infinite and 0 */
 } near_pair;
 
 /* Where the bodies are now: points and weights of the classes that follow them.  Weights are of the
@@ -31,7 +33,9 @@ typedef struct near_pair {
 typedef struct body_points {
     const particle *particle;
     const cut_rule *rule;
-    const uint8_t *off;     /* [n_cell] not 0: a body covers the cell or a part of it    */
+    const uint8_t *off; /* [n_cell] not 0: a body covers the cell or a part of it    */
+    int64_t n_pair;
+    const near_pair *pair;
     int64_t n_solid, n_cut; /* attached pairs (space.h) covered; cells cut by a surface  */
     const int32_t *solid, *cut;
     const double *solid_weight, *cut_weight; /* inside of the body; outside of all bodies */
@@ -87,6 +91,7 @@ typedef struct assembly_class {
     int64_t *slab; /* first batch of each slab, [n_slab + 2]; the last range is
                       the interface, done after the slabs by one thread         */
     int n_q;
+    int n_basis[3];  /* basis functions of a field of each order on an item: of two cells, two bodies */
     fe_rule rule[6]; /* [0], or one per local facet                              */
     double tangent[6][2][3];
     int orient[6];
@@ -133,9 +138,6 @@ typedef struct assembly_state {
 
 int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int n_spec, int n_thread, error *err);
 
-/* Tells the PF_PAIR classes which bodies are near something. */
-int assembly_set_pairs(assembly *a, const near_pair *pair, int64_t n, error *err);
-
 /* Tells the classes that follow the bodies where these are. */
 int assembly_set_bodies(assembly *a, const body_points *b, error *err);
 
@@ -151,7 +153,7 @@ void assembly_destroy(assembly *a);
 
 typedef struct workspace {
     v8 *x_node; /* [dim][nodes]                                            */
-    v8 *gap, *size;
+    v8 *gap, *size[2], *other_density;
     v8 *arm, *density;      /* [dim][n_q], [n_q] */
     int32_t *id;            /* [n_q][8] */
     v8 *w, *x, *normal, *h; /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
@@ -191,6 +193,16 @@ static inline int assemble_local(const space *s, int field, int i)
     if (s->field[field].order)
         return s->field[field].order == 2 ? i : type->vertex[i];
     return type->n_node + (s->field[field].support == PF_ON_PARTICLE ? s->any_problem : 0);
+}
+
+/* The same on an item of a class: a pair lists two bodies, a bad cell and its root the nodes of both. */
+static inline int assemble_item_local(const assembly_class *c, const space *s, int field, int i)
+{
+    int n = fe_n_basis(s->mesh->type, s->field[field].order);
+
+    if (c->where == PF_PAIR)
+        return i;
+    return i < n ? assemble_local(s, field, i) : s->mesh->type->n_node + assemble_local(s, field, i - n);
 }
 
 #endif

@@ -22,7 +22,7 @@ static int find_basis(const plan_basis *list, int n, int field, int grad)
 void element_vector(const assembly *a, const assembly_class *c, int field, workspace *w)
 {
     const space_field *f = &a->space->field[field];
-    int dim = a->space->mesh->dim, nq = c->n_q, n = fe_n_basis(a->space->mesh->type, f->order);
+    int dim = a->space->mesh->dim, nq = c->n_q, n = c->n_basis[f->order];
 
     memset(w->vec, 0, (size_t)(f->n_comp * n) * sizeof *w->vec);
     for (int grad = 0; grad < 2; grad++) {
@@ -133,8 +133,8 @@ int element_matrix(const assembly *as, const assembly_class *c, int row_field, i
     const space *s = as->space;
     const space_field *rf = &s->field[row_field], *cf = &s->field[col_field];
     int dim = s->mesh->dim, nq = c->n_q, coupled = 0;
-    int n_row = assemble_padded(fe_n_basis(s->mesh->type, rf->order));
-    int n_col = assemble_padded(fe_n_basis(s->mesh->type, cf->order));
+    int n_row = assemble_padded(c->n_basis[rf->order]);
+    int n_col = assemble_padded(c->n_basis[cf->order]);
 
     for (int a = 0; a < rf->n_comp; a++)
         for (int b = 0; b < cf->n_comp; b++) {

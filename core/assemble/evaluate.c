@@ -119,7 +119,9 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
         .density = on_body ? (double *)w->density : NULL,
         .id = on_body ? w->id : NULL,
         .gap = c->where == PF_PAIR ? (double *)w->gap : NULL,
-        .size_of = c->where == PF_PAIR ? (double *)w->size : NULL,
+        .size_of = c->where == PF_PAIR ? (double *)w->size[0] : NULL,
+        .other_size = c->where == PF_PAIR ? (double *)w->size[1] : NULL,
+        .other_density = c->where == PF_PAIR ? (double *)w->other_density : NULL,
         .scratch = w->scratch,
         .kernel = &w->report,
     };

@@ -202,6 +202,9 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
     c->where = spec->where;
     c->follows = spec->rule != NULL || spec->where == PF_PAIR;
     serial = c->follows || c->where == PF_FACET;
+    for (int order = 0; order < 3; order++)
+        c->n_basis[order] =
+            fe_n_basis(s->mesh->type, order) * (c->where == PF_CUT || (c->where == PF_PAIR && order == 0) ? 2 : 1);
     memset(c->block, 0xff, sizeof c->block);
     for (int i = 0; i < spec->n_use; i++) {
         if (i == ASSEMBLE_MAX_USES)
@@ -234,7 +237,7 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
     const fe_cell *type = a->space->mesh->type;
     size_t in = 1, test = 1, block = 1, out = 1, jac = 1, room = 1, scratch = 1,
            n = (size_t)assemble_padded(type->n_node);
-    size_t q = 1, dim = (size_t)type->dim;
+    size_t q = 1, basis[3] = {0}, dim = (size_t)type->dim;
 
     for (int i = 0; i < a->n_class; i++) {
         const assembly_class *c = &a->class_[i];
@@ -248,6 +251,10 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
         jac = max_size(jac, c->jac_size * nq);
         room = max_size(room, c->room_size * nq);
         scratch = max_size(scratch, c->scratch_size);
+        for (int order = 0; order < 3; order++) {
+            basis[order] = max_size(basis[order], (size_t)assemble_padded(c->n_basis[order]));
+            n = max_size(n, basis[order]);
+        }
     }
     ARENA_NEW(&w->memory, w->x_node, n * dim, err);
     ARENA_NEW(&w->memory, w->w, q, err);
@@ -257,11 +264,13 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
     ARENA_NEW(&w->memory, w->arm, q * dim, err);
     ARENA_NEW(&w->memory, w->density, q, err);
     ARENA_NEW(&w->memory, w->gap, q, err);
-    ARENA_NEW(&w->memory, w->size, q, err);
+    for (int i = 0; i < 2; i++)
+        ARENA_NEW(&w->memory, w->size[i], q, err);
+    ARENA_NEW(&w->memory, w->other_density, q, err);
     ARENA_NEW(&w->memory, w->id, q * PF_LANES, err);
     for (int order = 0; order < 3; order++)
         for (size_t k = 0; k <= dim; k++)
-            ARENA_NEW(&w->memory, w->basis[order][k], (size_t)assemble_padded(fe_n_basis(type, order)) * q, err);
+            ARENA_NEW(&w->memory, w->basis[order][k], (basis[order] + 1) * q, err);
     ARENA_NEW(&w->memory, w->dof, n * dim, err);
     ARENA_NEW(&w->memory, w->in, in, err);
     ARENA_NEW(&w->memory, w->test, test, err);
@@ -294,22 +303,12 @@ static int renew_items(assembly_class *c, int64_t n, error *err)
     return 0;
 }
 
-int assembly_set_pairs(assembly *a, const near_pair *pair, int64_t n, error *err)
+static int set_pairs(assembly_class *c, const body_points *b, error *err)
 {
-    const space *s = a->space;
-
-    for (int k = 0; k < a->n_class; k++) {
-        assembly_class *c = &a->class_[k];
-
-        if (c->where != PF_PAIR)
-            continue;
-        TRY(renew_items(c, n, err));
-        c->pair = pair;
-        for (int64_t i = 0; i < n; i++) {
-            c->cell[i] = s->attached_cell[pair[i].attached];
-            c->group[i] = s->mesh->n_cell + pair[i].attached;
-        }
-    }
+    TRY(renew_items(c, b->n_pair, err));
+    c->pair = b->pair;
+    for (int64_t i = 0; i < b->n_pair; i++)
+        c->group[i] = b->pair[i].group;
     return 0;
 }
 
@@ -318,6 +317,12 @@ int assembly_set_bodies(assembly *a, const body_points *b, error *err)
     const space *s = a->space;
 
     a->particle = b->particle;
+    for (int k = 0; k < a->n_class; k++) {
+        assembly_class *c = &a->class_[k];
+
+        if (c->where == PF_PAIR)
+            TRY(set_pairs(c, b, err));
+    }
     for (int k = 0; k < a->n_class; k++) {
         assembly_class *c = &a->class_[k];
         int solid = c->where == PF_SOLID;

@@ -95,16 +95,33 @@ static void particle_slots(const assembly *a, const assembly_class *c, int64_t b
         for (int q = 0; q < nq; q++) {
             for (int k = 0; k < dim; k++)
                 w->arm[k * nq + q][l] = w->x[k * nq + q][l] - p->x[k];
-            if (c->pair) {
-                const near_pair *near = &c->pair[item_of(c, batch, l)];
-
-                w->gap[q][l] = near->gap;
-                w->size[q][l] = near->size;
-                for (int k = 0; k < dim; k++)
-                    w->normal[k * nq + q][l] = near->normal[k];
-            }
             w->density[q][l] = p->density;
             w->id[q * 8 + l] = id;
+        }
+    }
+}
+
+/* A pair: one point, the first body counts 1 and the other -1. */
+static void points_of_pairs(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
+{
+    const v8 zero = {0};
+
+    w->w[0] = zero + 1;
+    for (int k = 0; k <= ASSEMBLE_PAD; k++)
+        w->basis[0][0][k] = zero + (k == 0 ? 1.0 : k == 1 ? -1.0 : 0.0);
+    for (int l = 0; l < 8; l++) {
+        const near_pair *near = &c->pair[item_of(c, batch, l)];
+
+        w->h[0][l] = near->h;
+        w->gap[0][l] = near->gap;
+        for (int i = 0; i < 2; i++)
+            w->size[i][0][l] = near->size[i];
+        w->density[0][l] = near->density[0];
+        w->other_density[0][l] = near->density[1];
+        w->id[l] = near->particle;
+        for (int k = 0; k < a->space->mesh->dim; k++) {
+            w->x[k][l] = near->at[k];
+            w->normal[k][l] = near->normal[k];
         }
     }
 }
@@ -116,6 +133,10 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
     int dim = m->dim, nq = c->n_q, f = c->facet[c->batch[batch]];
     v8 h, on;
 
+    if (c->where == PF_PAIR) {
+        points_of_pairs(a, c, batch, w);
+        return;
+    }
     for (int l = 0; l < 8; l++) {
         int64_t cell = c->cell[item_of(c, batch, l)];
 
@@ -135,9 +156,7 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
             for (int k = 0; k < dim; k++)
                 w->normal[k * nq + q] = n[k];
         }
-        if (c->where == PF_PAIR)
-            w->w[q] = (v8){0} + 1;
-        else if (c->weight)
+        if (c->weight)
             for (int l = 0; l < 8; l++)
                 w->w[q][l] = det[l] * c->weight[item_of(c, batch, l) * nq + q];
         else
@@ -169,28 +188,27 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
                     w->basis[order][k][i * nq + q] = (v8){0};
         }
     }
-    if (c->where == PF_SOLID || c->where == PF_PAIR)
+    if (c->where == PF_SOLID)
         particle_slots(a, c, batch, w);
 }
 
-/* Nodal values of a field on the cells of a batch, dof[comp][i]. */
+/* Nodal values of a field on the items of a batch, dof[comp][i]; zero where there is no carrier (a wall). */
 static void gather(const assembly *a, const assembly_class *c, int64_t batch, int field, const double *x, v8 *dof)
 {
     const space *s = a->space;
-    int n = fe_n_basis(s->mesh->type, s->field[field].order), n_comp = s->field[field].n_comp;
-    int nodes = s->mesh->type->n_node;
+    int n = c->n_basis[s->field[field].order], n_comp = s->field[field].n_comp;
+    int on_cells = c->where != PF_CUT && s->field[field].order > 0;
 
     for (int l = 0; l < 8; l++) {
-        int64_t cell = c->cell[item_of(c, batch, l)];
+        int64_t item = item_of(c, batch, l), group = c->group[item];
+        const int32_t *node = on_cells ? s->mesh->cell + (int64_t)c->cell[item] * s->mesh->type->n_node : NULL;
 
         for (int i = 0; i < n; i++) {
-            int local = assemble_local(s, field, i);
-            int64_t node = local < nodes ? s->mesh->cell[cell * nodes + local]
-                                         : space_carrier(s, c->group[item_of(c, batch, l)], local);
-            const double *v = x + s->first[field][node];
+            int32_t carrier = on_cells ? node[assemble_local(s, field, i)] /* shows its master's unknowns */
+                                       : space_carrier(s, group, assemble_item_local(c, s, field, i));
 
             for (int k = 0; k < n_comp; k++)
-                dof[k * n + i][l] = v[k];
+                dof[k * n + i][l] = carrier < 0 ? 0 : x[s->first[field][carrier] + k];
         }
     }
 }
@@ -241,7 +259,7 @@ void points_inputs(const assembly *a, const assembly_class *c, const assembly_st
             gathered = from;
             gathered_field = in->field;
         }
-        interpolate(w, in, sp->field[in->field].order, fe_n_basis(sp->mesh->type, sp->field[in->field].order),
+        interpolate(w, in, sp->field[in->field].order, c->n_basis[sp->field[in->field].order],
                     sp->field[in->field].n_comp, nq, dim);
     }
 }

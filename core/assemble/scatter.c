@@ -11,27 +11,28 @@ static void scatter_vector(const assembly *a, const assembly_class *c, int64_t b
                            double *residual)
 {
     const space *s = a->space;
-    int n = fe_n_basis(s->mesh->type, s->field[field].order);
+    int n = c->n_basis[s->field[field].order];
 
     for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++)
         for (int i = 0, l = (int)(item - c->batch[batch]); i < n; i++) {
-            double *r = residual + s->first[field][space_carrier(s, c->group[item], assemble_local(s, field, i))];
+            int32_t carrier = space_carrier(s, c->group[item], assemble_item_local(c, s, field, i));
 
-            for (int k = 0; k < s->field[field].n_comp; k++)
-                r[k] += w->vec[k * n + i][l];
+            for (int k = 0; carrier >= 0 && k < s->field[field].n_comp; k++)
+                residual[s->first[field][carrier] + k] += w->vec[k * n + i][l];
         }
 }
 
 /* Free columns of a field on a group: position within the columns of their carrier, or -1. */
-static void columns(const space *s, int64_t group, int field, int n, int *local, int (*relative)[3])
+static void columns(const assembly_class *c, const space *s, int64_t group, int field, int n, int *local,
+                    int (*relative)[3])
 {
     for (int j = 0; j < n; j++) {
         int32_t carrier;
 
-        local[j] = assemble_local(s, field, j);
+        local[j] = assemble_item_local(c, s, field, j);
         carrier = space_carrier(s, group, local[j]);
         for (int b = 0; b < s->field[field].n_comp; b++) {
-            int32_t f = s->free_of[s->first[field][carrier] + b];
+            int32_t f = carrier < 0 ? -1 : s->free_of[s->first[field][carrier] + b];
 
             relative[j][b] = f < 0 || s->idle[s->first[field][carrier] + b] ? -1 : (int)(f - s->node_free[carrier]);
         }
@@ -42,21 +43,22 @@ static void scatter_matrix(const assembly *a, const assembly_class *c, int64_t b
                            const workspace *w, double *value)
 {
     const space *s = a->space;
-    int nc = s->cell_carriers, n_row = fe_n_basis(s->mesh->type, s->field[row_field].order);
-    int n_col = fe_n_basis(s->mesh->type, s->field[col_field].order), row_comp = s->field[row_field].n_comp;
+    int n_row = c->n_basis[s->field[row_field].order];
+    int n_col = c->n_basis[s->field[col_field].order], row_comp = s->field[row_field].n_comp;
     int col_comp = s->field[col_field].n_comp, pr = assemble_padded(n_row), pc = assemble_padded(n_col);
 
     for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++) {
-        int l = (int)(item - c->batch[batch]), local[FE_MAX_NODES], relative[FE_MAX_NODES][3];
+        int l = (int)(item - c->batch[batch]), local[2 * FE_MAX_NODES], relative[2 * FE_MAX_NODES][3];
         int64_t group = c->group[item];
+        int size = space_group_size(s, group);
 
-        columns(s, group, col_field, n_col, local, relative);
+        columns(c, s, group, col_field, n_col, local, relative);
         for (int i = 0; i < n_row; i++) {
-            int li = assemble_local(s, row_field, i);
-            int32_t dof = s->first[row_field][space_carrier(s, group, li)];
-            const int32_t *pair = s->pair + (group * nc + li) * nc;
+            int li = assemble_item_local(c, s, row_field, i);
+            int32_t carrier = space_carrier(s, group, li), dof = carrier < 0 ? 0 : s->first[row_field][carrier];
+            const int32_t *pair = space_pair(s, group) + li * size;
 
-            for (int ra = 0; ra < row_comp; ra++) {
+            for (int ra = 0; carrier >= 0 && ra < row_comp; ra++) {
                 int32_t row = s->free_of[dof + ra];
                 double *to;
 

@@ -115,6 +115,7 @@ static int attach(problem *p, error *err)
         ARENA_NEW(&p->envelope_memory, s->attached_particle, n + 1, err);
     }
     s->n_attached = n;
+    TRY(problem_link(p, 2 * MARGIN * p->h_max, err));
     ARENA_NEW(&p->envelope_memory, p->weight, n * p->cut.n + 1, err);
     ARENA_NEW(&p->envelope_memory, p->covered, n + 1, err);
     ARENA_NEW(&p->envelope_memory, p->whole_inside, n + 1, err);
@@ -284,9 +285,7 @@ int problem_cut(problem *p, double *x, error *err)
     if (again || moved || p->n_cut == 0)
         TRY(outside(p, err));
     activate(p, x);
-    TRY(problem_find_pairs(p, err));
-    if (p->system.linear.solver)
-        TRY(assembly_set_pairs(&p->system.assembly, p->pair, p->n_pair, err));
+    problem_find_pairs(p);
     if (p->system.linear.solver && moved)
         linear_forget(&p->system.linear); /* the old factors know the old cells */
     if (p->system.linear.solver)
@@ -294,6 +293,8 @@ int problem_cut(problem *p, double *x, error *err)
                                 &(body_points){.particle = p->particle,
                                                .rule = &p->cut,
                                                .off = p->fluid_off,
+                                               .n_pair = p->n_pair,
+                                               .pair = p->pair,
                                                .n_solid = p->n_covered,
                                                .n_cut = p->n_cut,
                                                .solid = p->covered,

@@ -21,30 +21,91 @@ static unsigned walls_of(const problem *p)
     return walls;
 }
 
-/* The first attached pair of a body: any does, its only use is to name the body. */
-static int32_t attached_of(const problem *p, int k)
+/* Centre distance, and unit vector from b to a. */
+static double separation(const problem *p, const particle *a, const particle *b, double *n)
 {
-    int64_t a = 0;
+    double d = 0;
 
-    while (p->space.attached_particle[a] != k)
-        a++;
-    return (int32_t)a;
+    for (int k = 0; k < p->dim; k++)
+        d += (a->x[k] - b->x[k]) * (a->x[k] - b->x[k]);
+    d = sqrt(d);
+    for (int k = 0; k < p->dim; k++)
+        n[k] = (a->x[k] - b->x[k]) / d;
+    return d;
 }
 
-static void add_pair(problem *p, int k, double gap, const double *normal)
+int problem_link(problem *p, double drift, error *err)
+{
+    space *s = &p->space;
+    int64_t n = 0;
+    int has_pairs = 0;
+
+    for (int i = 0; i < p->n_use; i++)
+        has_pairs |= p->use[i].where == PF_PAIR;
+    for (int k = 0; k < p->n_particle && p->pair_range == 0; k++)
+        p->pair_range = fmax(p->pair_range, 2 * p->particle[k].shape.radius);
+    p->walls = walls_of(p);
+    s->n_extra = p->n_link = 0;
+    for (int pass = 0; has_pairs && pass < 2; pass++) {
+        n = p->n_particle; /* the links to walls come first */
+        for (int i = 0; i < p->n_particle; i++)
+            for (int j = 0; j < i; j++) {
+                const particle *a = &p->particle[i], *b = &p->particle[j];
+                double ignored[3];
+
+                if (separation(p, a, b, ignored) - a->shape.radius - b->shape.radius > p->pair_range + drift)
+                    continue;
+                if (pass) {
+                    s->extra_carrier[2 * n] = (int32_t)(p->mesh.n_node + 1 + i);
+                    s->extra_carrier[2 * n + 1] = (int32_t)(p->mesh.n_node + 1 + j);
+                }
+                n++;
+            }
+        if (pass)
+            break;
+        ARENA_NEW(&p->envelope_memory, s->extra_first, n + 1, err);
+        ARENA_NEW(&p->envelope_memory, s->extra_carrier, 2 * n, err);
+        ARENA_NEW(&p->envelope_memory, p->pair, n + 2 * p->dim * p->n_particle, err);
+        for (int i = 0; i < p->n_particle; i++) {
+            s->extra_carrier[2 * i] = (int32_t)(p->mesh.n_node + 1 + i);
+            s->extra_carrier[2 * i + 1] = -1;
+        }
+        for (int64_t e = 0; e <= n; e++)
+            s->extra_first[e] = 2 * e;
+    }
+    s->n_extra = p->n_link = n;
+    return 0;
+}
+
+/* The pair of body a, b (NULL: a wall) of link k, at this gap and normal. */
+static void add_pair(problem *p, int64_t link, int a, const particle *b, double gap, const double *normal)
 {
     near_pair *n = &p->pair[p->n_pair++];
+    const particle *q = &p->particle[a];
+    double r[3][3], back[3], reach;
 
-    n->attached = attached_of(p, k);
-    n->gap = gap;
-    n->size = 2 * p->particle[k].shape.radius;
-    memcpy(n->normal, normal, sizeof n->normal);
+    *n = (near_pair){
+        .group = p->mesh.n_cell + p->space.n_attached + link, .particle = a, .gap = gap, .h = p->h_mean};
+    n->size[0] = 2 * q->shape.radius;
+    n->density[0] = q->density;
+    n->size[1] = b ? 2 * b->shape.radius : INFINITY;
+    n->density[1] = b ? b->density : 0;
+    particle_rotation(q, r);
+    for (int k = 0; k < 3; k++)
+        back[k] = -normal[k];
+    reach = particle_support(q, (const double(*)[3])r, back) + 0.5 * gap;
+    for (int k = 0; k < p->dim; k++) {
+        n->normal[k] = normal[k];
+        n->at[k] = q->x[k] - reach * normal[k];
+    }
 }
 
-static void near_walls(problem *p, int k, const double r[3][3])
+static void near_walls(problem *p, int k)
 {
     const particle *q = &p->particle[k];
+    double r[3][3];
 
+    particle_rotation(q, r);
     for (int side = 0; side < 2 * p->dim; side++) {
         int axis = side / 2;
         double n[3] = {0}, gap;
@@ -52,54 +113,32 @@ static void near_walls(problem *p, int k, const double r[3][3])
         if (!(p->walls >> side & 1))
             continue;
         n[axis] = side % 2 ? -1 : 1;
-        gap =
-            (side % 2 ? p->box.high[axis] - q->x[axis] : q->x[axis] - p->box.low[axis]) - particle_support(q, r, n);
+        gap = (side % 2 ? p->box.high[axis] - q->x[axis] : q->x[axis] - p->box.low[axis]) -
+              particle_support(q, (const double(*)[3])r, n);
         if (gap < p->pair_range)
-            add_pair(p, k, gap, n);
+            add_pair(p, k, k, NULL, gap, n);
     }
 }
 
-int problem_find_pairs(problem *p, error *err)
+void problem_find_pairs(problem *p)
 {
-    double r[2][3][3];
+    const space *s = &p->space;
 
     p->n_pair = 0;
-    if (!p->pair) {
-        p->walls = walls_of(p);
-        p->pair_room = (int64_t)p->n_particle * (2 * p->dim + 24);
-        ARENA_NEW(&p->memory, p->pair, p->pair_room, err);
-        for (int k = 0; k < p->n_particle; k++)
-            p->pair_range = fmax(p->pair_range, 2 * p->particle[k].shape.radius);
-    }
-    for (int i = 0; i < p->n_particle; i++) {
-        const particle *a = &p->particle[i];
+    for (int k = 0; p->n_link && k < p->n_particle; k++)
+        near_walls(p, k);
+    for (int64_t l = p->n_particle; l < p->n_link; l++) {
+        int i = (int)(s->extra_carrier[2 * l] - p->mesh.n_node - 1);
+        const particle *a = &p->particle[i], *b = &p->particle[s->extra_carrier[2 * l + 1] - p->mesh.n_node - 1];
+        double n[3] = {0}, back[3], r[2][3][3], gap = separation(p, a, b, n);
 
+        for (int k = 0; k < 3; k++)
+            back[k] = -n[k];
         particle_rotation(a, r[0]);
-        near_walls(p, i, (const double(*)[3])r[0]);
-        for (int j = 0; j < i; j++) {
-            const particle *b = &p->particle[j];
-            double n[3] = {0}, back[3] = {0}, d = 0, gap, reach = a->shape.radius + b->shape.radius + p->pair_range;
-
-            for (int k = 0; k < p->dim; k++)
-                d += (a->x[k] - b->x[k]) * (a->x[k] - b->x[k]);
-            if (d >= reach * reach || d == 0)
-                continue;
-            d = sqrt(d);
-            for (int k = 0; k < p->dim; k++) {
-                n[k] = (a->x[k] - b->x[k]) / d;
-                back[k] = -n[k];
-            }
-            particle_rotation(b, r[1]);
-            gap = d - particle_support(a, (const double(*)[3])r[0], back) -
-                  particle_support(b, (const double(*)[3])r[1], n);
-            if (p->n_pair + 2 > p->pair_room)
-                return error_set(err, ERR_CONVERGE, "more than %lld near pairs: do bodies overlap?",
-                                 (long long)p->pair_room);
-            if (gap < p->pair_range) {
-                add_pair(p, i, gap, n);
-                add_pair(p, j, gap, back);
-            }
-        }
+        particle_rotation(b, r[1]);
+        gap -=
+            particle_support(a, (const double(*)[3])r[0], back) + particle_support(b, (const double(*)[3])r[1], n);
+        if (gap < p->pair_range)
+            add_pair(p, l, i, b, gap, n);
     }
-    return 0;
 }

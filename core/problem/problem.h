@@ -99,7 +99,7 @@ typedef struct problem {
     int32_t *cut_cell;  /* cells that a surface cuts                                    */
     double *cut_weight; /* of their part outside of all bodies                          */
     near_pair *pair;    /* bodies near something                                  */
-    int64_t n_pair, pair_room;
+    int64_t n_pair, n_link;
     unsigned walls;          /* bit k: side k of the box is a wall */
     double pair_range;       /* gap up to which pairs are looked for                   */
     double active_threshold; /* tau of the active set                                  */
@@ -150,8 +150,10 @@ int problem_make_mesh(problem *p, error *err);
 int problem_read_terms(problem *p, error *err);
 int problem_read_boundaries(problem *p, error *err);
 int problem_make_boundaries(problem *p, error *err);
-/* Bodies within pair_range of a wall of the box or of each other (contacts.c). */
-int problem_find_pairs(problem *p, error *err);
+/* Contacts (contacts.c): links each body to the walls, and bodies that may come near each other while none moves
+ * further than drift / 2; then, of these, the pairs within pair_range. */
+int problem_link(problem *p, double drift, error *err);
+void problem_find_pairs(problem *p);
 int problem_read_particles(problem *p, error *err);
 int problem_make_particles(problem *p, error *err);
 void problem_hold_particles(problem *p); /* marks the unknowns that do not move by themselves */

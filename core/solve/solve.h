@@ -67,7 +67,7 @@ typedef struct newton_options {
 
 typedef struct newton_report {
     int iterations, converged;
-    int singular; /* converged, but the equations leave some unknowns open */
+    int singular;                              /* converged, but the equations leave some unknowns open */
     int total;                                 /* iterations of all solves of a continuation */
     double norm[SPACE_MAX_FIELDS];             /* scaled residual of each field, last  */
     double history[NEWTON_MAX_ITERATIONS + 1]; /* largest of them, per iteration        */

@@ -52,25 +52,45 @@ int space_add_field(space *s, int dim, const pf_field *f, const char *plugin, er
 
 int64_t space_groups(const space *s)
 {
-    return s->mesh->n_cell + s->n_attached;
+    return s->mesh->n_cell + s->n_attached + s->n_extra;
+}
+
+int32_t space_master(const space *s, int32_t node)
+{
+    while (s->mesh->master && s->mesh->master[node] != node)
+        node = s->mesh->master[node];
+    return node;
+}
+
+int space_group_size(const space *s, int64_t group)
+{
+    int64_t extra = group - s->mesh->n_cell - s->n_attached;
+
+    return extra < 0 ? s->cell_carriers : (int)(s->extra_first[extra + 1] - s->extra_first[extra]);
 }
 
 int32_t space_carrier(const space *s, int64_t group, int i)
 {
     const mesh *m = s->mesh;
-    int64_t attached = group - m->n_cell, cell = attached >= 0 ? s->attached_cell[attached] : group;
-    int32_t node;
+    int64_t attached = group - m->n_cell, cell = group;
 
+    if (attached >= s->n_attached)
+        return s->extra_carrier[s->extra_first[attached - s->n_attached] + i];
+    if (attached >= 0)
+        cell = s->attached_cell[attached];
     if (i >= m->type->n_node) {
         if (i == m->type->n_node && s->any_problem)
             return (int32_t)m->n_node;
         return attached >= 0 ? (int32_t)m->n_node + 1 + s->attached_particle[attached] : -1;
     }
-    node = m->cell[cell * m->type->n_node + i];
-    if (m->master)
-        while (m->master[node] != node)
-            node = m->master[node];
-    return node;
+    return space_master(s, m->cell[cell * m->type->n_node + i]);
+}
+
+const int32_t *space_pair(const space *s, int64_t group)
+{
+    int64_t base = s->mesh->n_cell + s->n_attached;
+
+    return s->pair + (group < base ? group * s->cell_carriers * s->cell_carriers : s->extra_pair[group - base]);
 }
 
 /* What fields a carrier has: marks order 2 on all nodes of cells, order 1 on their vertices. */
@@ -136,10 +156,8 @@ int space_number(space *s, mesh *m, error *err)
     }
     /* Nodes that share a master show its unknowns. */
     for (int64_t c = 0; m->master && c < m->n_node; c++) {
-        int32_t r = (int32_t)c;
+        int32_t r = space_master(s, (int32_t)c);
 
-        while (m->master[r] != r)
-            r = m->master[r];
         for (int f = 0; f < s->n_field; f++)
             s->first[f][c] = s->first[f][r];
     }

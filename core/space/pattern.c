@@ -45,15 +45,16 @@ static int groups_of_carriers(space *s, int64_t **start, int32_t **cell, error *
     int64_t n = space_groups(s);
 
     ARENA_NEW(&s->memory, *start, s->n_carrier + 2, err);
-    ARENA_NEW(&s->memory, *cell, n * s->cell_carriers, err);
+    ARENA_NEW(&s->memory, *cell,
+              (n - s->n_extra) * s->cell_carriers + (s->n_extra ? s->extra_first[s->n_extra] : 0), err);
     for (int64_t e = 0; e < n; e++)
-        for (int i = 0; i < s->cell_carriers; i++)
+        for (int i = 0; i < space_group_size(s, e); i++)
             if (space_carrier(s, e, i) >= 0)
                 (*start)[space_carrier(s, e, i) + 2]++;
     for (int64_t c = 0; c <= s->n_carrier; c++)
         (*start)[c + 1] += (*start)[c];
     for (int64_t e = 0; e < n; e++)
-        for (int i = 0; i < s->cell_carriers; i++)
+        for (int i = 0; i < space_group_size(s, e); i++)
             if (space_carrier(s, e, i) >= 0)
                 (*cell)[(*start)[space_carrier(s, e, i) + 1]++] = (int32_t)e;
     return 0;
@@ -66,7 +67,7 @@ static int64_t neighbours(const space *s, const int64_t *start, const int32_t *c
     int64_t n = 0;
 
     for (int64_t k = start[c]; k < start[c + 1]; k++)
-        for (int i = 0; i < s->cell_carriers; i++) {
+        for (int i = 0, size = space_group_size(s, cell[k]); i < size; i++) {
             int32_t j = space_carrier(s, cell[k], i);
 
             if (j < 0 || seen[j] || s->node_free[j + 1] == s->node_free[j])
@@ -83,16 +84,34 @@ static int64_t neighbours(const space *s, const int64_t *start, const int32_t *c
 /* For the cells of carrier c: where the columns of each of their carriers start in c's rows. */
 static void locate_pairs(space *s, const int64_t *start, const int32_t *cell, int64_t c, int32_t *offset)
 {
-    int nc = s->cell_carriers;
+    for (int64_t k = start[c]; k < start[c + 1]; k++) {
+        int32_t *pair = s->pair + (space_pair(s, cell[k]) - s->pair);
+        int n = space_group_size(s, cell[k]);
 
-    for (int64_t k = start[c]; k < start[c + 1]; k++)
-        for (int i = 0; i < nc; i++)
+        for (int i = 0; i < n; i++)
             if (space_carrier(s, cell[k], i) == c)
-                for (int j = 0; j < nc; j++) {
+                for (int j = 0; j < n; j++) {
                     int32_t other = space_carrier(s, cell[k], j);
 
-                    s->pair[((int64_t)cell[k] * nc + i) * nc + j] = other < 0 ? -1 : offset[other];
+                    pair[i * n + j] = other < 0 ? -1 : offset[other];
                 }
+    }
+}
+
+/* Room for the offsets of all groups. */
+static int place_pairs(space *s, error *err)
+{
+    int64_t n = (space_groups(s) - s->n_extra) * s->cell_carriers * s->cell_carriers;
+
+    ARENA_NEW(&s->pattern_memory, s->extra_pair, s->n_extra + 1, err);
+    for (int64_t e = 0; e < s->n_extra; e++) {
+        int64_t size = s->extra_first[e + 1] - s->extra_first[e];
+
+        s->extra_pair[e] = n;
+        n += size * size;
+    }
+    ARENA_NEW(&s->pattern_memory, s->pair, n, err);
+    return 0;
 }
 
 int space_constrain(space *s, error *err)
@@ -107,7 +126,7 @@ int space_constrain(space *s, error *err)
     arena_free(&s->pattern_memory);
     TRY(number_free(s, err));
     ARENA_NEW(&s->pattern_memory, s->row, s->n_free + 1, err);
-    ARENA_NEW(&s->pattern_memory, s->pair, space_groups(s) * s->cell_carriers * s->cell_carriers, err);
+    TRY(place_pairs(s, err));
     keep = s->memory; /* what follows is needed only here */
     s->memory = scratch;
     status = groups_of_carriers(s, &start, &cell, err);

@@ -4,7 +4,7 @@
  *
  * A carrier is what unknowns hang on: a mesh node or, after those, the problem as a whole, then the
  * particles.  A group is a set of carriers whose unknowns couple: the nodes of a cell (and the problem),
- * or a cell and a particle near it.
+ * or a cell and a particle near it, or an extra list of carriers: two particles, two cells.
  * A carrier's unknowns are numbered consecutively, field by field, component by component
  * ("interleaved by node").  Unknowns are numbered twice: all of them ("dof", 0..n_dof-1) and
  * those that no Dirichlet condition fixes ("free", 0..n_free-1), which make up the matrix.
@@ -40,6 +40,9 @@ typedef struct space {
     int n_particle, any_problem;
     int64_t n_attached; /* pairs of a cell and a particle near it                     */
     int32_t *attached_cell, *attached_particle;
+    int64_t n_extra;      /* extra groups, and the carriers of each                     */
+    int64_t *extra_first; /* [n_extra + 1] */
+    int32_t *extra_carrier;
     int64_t n_carrier; /* mesh nodes + 1                                             */
     int cell_carriers; /* carriers of a cell: its nodes, then the problem if needed  */
     int64_t n_dof, n_free;
@@ -55,9 +58,10 @@ typedef struct space {
     int64_t n_row_node;
 
     /* Matrix pattern over free unknowns; all unknowns of two carriers of one cell couple. */
-    int64_t *row, *col; /* [n_free + 1], [row[n_free]]                                */
-    int32_t *pair;      /* [groups][cell_carriers^2]: offset of carrier j's columns in
-                           the rows of carrier i, or -1                               */
+    int64_t *row, *col;  /* [n_free + 1], [row[n_free]]                                */
+    int32_t *pair;       /* of each group [size^2]: offset of carrier j's columns in
+                            the rows of carrier i, or -1                               */
+    int64_t *extra_pair; /* [n_extra] where those of the extra groups start */
     arena memory, pattern_memory;
 } space;
 
@@ -71,10 +75,15 @@ int space_number(space *s, mesh *m, error *err);
 /* Numbers free unknowns and builds the pattern (after `fixed` is set); may be called again. */
 int space_constrain(space *s, error *err);
 
-/* Number of groups: cells, then pairs of cell and particle. */
+/* Number of groups: cells, then pairs of cell and particle, then the extra ones. */
 int64_t space_groups(const space *s);
-/* Carrier i of a group: master node, the problem, the particle; -1 if it has none at this place. */
+/* Number of carriers of a group, and each: master node, the problem, the particle; -1 if it has none there. */
+int space_group_size(const space *s, int64_t group);
 int32_t space_carrier(const space *s, int64_t group, int i);
+/* The part of `pair` of this group, [size][size]. */
+const int32_t *space_pair(const space *s, int64_t group);
+/* Node of the mesh that carries the unknowns of a node: itself, or its master on a periodic boundary. */
+int32_t space_master(const space *s, int32_t node);
 
 void space_destroy(space *s);
 

@@ -103,8 +103,26 @@ static int wrong(error *err, const struct subject *s, const char *fmt, ...)
                      s->term ? s->term : "", why);
 }
 
-static int check_slots(const term_plugin *p, const pf_slot *slot, uint32_t n, int is_out, const struct subject *s,
-                       error *err)
+/* On pairs of cells or bodies only differences have a meaning, and nowhere else. */
+static int check_defect(const pf_slot *slot, const pf_field *f, uint32_t where, const struct subject *s, error *err)
+{
+    int pairs = where == PF_CUT || where == PF_PAIR;
+    uint32_t support = where == PF_CUT ? PF_ON_MESH : PF_ON_PARTICLE;
+
+    if (slot->eval == PF_DEFECT && !pairs)
+        return wrong(err, s, "slot \"%s\" asks for PF_DEFECT, which only PF_CUT and PF_PAIR points have",
+                     slot->name);
+    if (pairs && slot->eval != PF_DEFECT)
+        return wrong(err, s, "slot \"%s\": on %s points fields are there as PF_DEFECT only", slot->name,
+                     term_where_name(where));
+    if (pairs && f->support != support)
+        return wrong(err, s, "slot \"%s\": on %s points fields %s are possible", slot->name, term_where_name(where),
+                     where == PF_CUT ? "on the mesh" : "on particles");
+    return 0;
+}
+
+static int check_slots(const term_plugin *p, const pf_slot *slot, uint32_t n, uint32_t where, int is_out,
+                       const struct subject *s, error *err)
 {
     const char *side = is_out ? "output" : "input";
 
@@ -117,11 +135,9 @@ static int check_slots(const term_plugin *p, const pf_slot *slot, uint32_t n, in
             if (strcmp(slot[k].name, slot[i].name) == 0)
                 return wrong(err, s, "two %s slots are called \"%s\"", side, slot[i].name);
         if (slot[i].eval < PF_VALUE || slot[i].eval > PF_DEFECT ||
-            (is_out && slot[i].eval != PF_VALUE && slot[i].eval != PF_GRAD && slot[i].eval != PF_DIV))
+            (is_out && slot[i].eval != PF_VALUE && slot[i].eval != PF_GRAD && slot[i].eval != PF_DIV &&
+             slot[i].eval != PF_DEFECT))
             return wrong(err, s, "%s slot \"%s\": eval %u is not possible there", side, slot[i].name, slot[i].eval);
-        if (slot[i].eval == PF_DEFECT)
-            return wrong(err, s, "slot \"%s\" asks for PF_DEFECT, which this version does not feed yet",
-                         slot[i].name);
         if (slot[i].shape < PF_SCALAR || slot[i].shape > PF_SPIN)
             return wrong(err, s, "%s slot \"%s\": unknown shape %u", side, slot[i].name, slot[i].shape);
         if (slot[i].eval == PF_DATA)
@@ -135,8 +151,9 @@ static int check_slots(const term_plugin *p, const pf_slot *slot, uint32_t n, in
         if (term_slot_shape(slot[i].eval, f->shape) != slot[i].shape)
             return wrong(err, s, "%s slot \"%s\": the %s of field \"%s\" has another shape than the slot says",
                          side, slot[i].name, term_eval_name(slot[i].eval), f->name);
+        TRY(check_defect(&slot[i], f, where, s, err));
         if (f->support != PF_ON_MESH && f->support != PF_IN_PARTICLES && slot[i].eval != PF_VALUE &&
-            slot[i].eval != PF_DOT && slot[i].eval != PF_OLD)
+            slot[i].eval != PF_DOT && slot[i].eval != PF_OLD && slot[i].eval != PF_DEFECT)
             return wrong(err, s, "%s slot \"%s\": field \"%s\" does not live on the mesh and has no %s", side,
                          slot[i].name, f->name, term_eval_name(slot[i].eval));
     }
@@ -180,15 +197,14 @@ static int check_term(const term_plugin *p, const pf_term *t, const struct subje
         return wrong(err, s, "lacks doc (its weak form) or cite (where the equation stands)");
     if (t->where < PF_CELL || t->where > PF_PAIR)
         return wrong(err, s, "acts on unknown points, where = %u", t->where);
-    if (t->where != PF_CELL && t->where != PF_FLUID && t->where != PF_FACET && t->where != PF_SOLID &&
-        t->where != PF_PAIR)
+    if (t->where == PF_PARTICLE)
         return wrong(err, s, "acts on %s points, which this version does not feed yet", term_where_name(t->where));
     if (!t->residual)
         return wrong(err, s, "has no residual function");
     if (t->n_out == 0 || !t->out || (t->n_in && !t->in) || (t->n_param && !t->param))
         return wrong(err, s, "has no output, or a count without its array");
-    TRY(check_slots(p, t->in, t->n_in, 0, s, err));
-    TRY(check_slots(p, t->out, t->n_out, 1, s, err));
+    TRY(check_slots(p, t->in, t->n_in, t->where, 0, s, err));
+    TRY(check_slots(p, t->out, t->n_out, t->where, 1, s, err));
     for (uint32_t i = 0; i < t->n_param; i++) {
         TRY(check_param(t, &t->param[i], s, err));
         for (uint32_t k = 0; k < i; k++)

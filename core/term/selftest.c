@@ -151,6 +151,8 @@ static int bench_create(bench *k, selftest *s, const term_plugin *p, const pf_te
                       .density = t->where == PF_SOLID || t->where == PF_PAIR ? k->density : NULL,
                       .gap = t->where == PF_PAIR ? k->h : NULL,
                       .size_of = t->where == PF_PAIR ? k->density : NULL,
+                      .other_size = t->where == PF_PAIR ? k->density : NULL,
+                      .other_density = t->where == PF_PAIR ? k->density : NULL,
                       .id = t->where == PF_SOLID || t->where == PF_PAIR ? k->id : NULL,
                       .params = k->params,
                       .scratch = k->b.scratch,

@@ -44,19 +44,21 @@ enum pf_where {
     PF_SURFACE = 5,  /* surface of a particle; normal points out of the fluid     */
     PF_CUT = 6,      /* cells with too little fluid, see PF_DEFECT                */
     PF_PARTICLE = 7, /* once per particle, weight 1                               */
-    PF_PAIR = 8      /* near pairs, particle-particle and particle-wall, weight 1 */
+    PF_PAIR = 8      /* near pairs, particle-particle and particle-wall, weight 1; see PF_DEFECT */
 };
 
 /* What of a field a slot holds.  For an output slot: what of the test function it multiplies
- * (PF_VALUE, PF_GRAD or PF_DIV). */
+ * (PF_VALUE, PF_GRAD or PF_DIV; on PF_CUT and PF_PAIR PF_DEFECT). */
 enum pf_eval {
     PF_VALUE = 1,
     PF_GRAD = 2,
     PF_DIV = 3,
-    PF_DOT = 4,   /* d/dt in the time scheme; the kernel applies pf_batch.shift in Jacobians */
-    PF_OLD = 5,   /* value at t - dt                                                         */
-    PF_DATA = 6,  /* no unknown: a value or function of x and t from the case                */
-    PF_DEFECT = 7 /* value minus the polynomial of the root cell, on PF_CUT                  */
+    PF_DOT = 4,  /* d/dt in the time scheme; the kernel applies pf_batch.shift in Jacobians */
+    PF_OLD = 5,  /* value at t - dt                                                         */
+    PF_DATA = 6, /* no unknown: a value or function of x and t from the case                */
+    /* What differs: on PF_CUT the value minus the polynomial of the root cell, continued to here; on
+     * PF_PAIR that of the first body minus that of the other (a wall rests).  The only slots there. */
+    PF_DEFECT = 7
 };
 
 /* Components of a slot; a tensor is row-major, grad_u[a*dim + k] = d u_a / d x_k. */
@@ -131,9 +133,9 @@ typedef struct pf_batch {
     void *kernel;                   /* the kernel's own; pass the batch on to host->fail  */
     const double *density;          /* [ld] of the particle, PF_SOLID (1.1)                    */
     const int32_t *id;              /* [ld] of the particle, from 0, PF_SOLID (1.1)            */
-    /* PF_PAIR (1.1): one point for each body of a near pair, with the other (a body or a wall) at `gap`;
-     * normal points from the other to the body; size: of the body across, m. */
-    const double *gap, *size_of;
+    /* PF_PAIR (1.1): one point a pair, in the middle of the gap, m; normal points from the other body, or
+     * the wall, to the first.  Sizes: across, m; of a wall infinite, and its density 0. */
+    const double *gap, *size_of, *other_size, *other_density;
 } pf_batch;
 
 /* in[k], out[k]: [component][ld] of slot k.  The residual assigns every output.

@@ -166,7 +166,7 @@ ALTERATION(no_citation, term.cite = NULL)
 ALTERATION(no_residual, term.residual = NULL)
 ALTERATION(no_output, term.n_out = 0)
 ALTERATION(unknown_place, term.where = 17)
-ALTERATION(on_surface, term.where = PF_SURFACE)
+ALTERATION(on_particles, term.where = PF_PARTICLE)
 ALTERATION(by_boundary_in_cells, term.flags = PF_BY_BOUNDARY)
 
 /* --- slots --- */
@@ -253,7 +253,7 @@ static const struct alteration {
     A(no_residual),
     A(no_output),
     A(unknown_place),
-    A(on_surface),
+    A(on_particles),
     A(by_boundary_in_cells),
     A(duplicate_slot),
     A(duplicate_data_slot),

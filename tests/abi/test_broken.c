@@ -112,7 +112,7 @@ static const struct CMUnitTest tests[] = {
     TOLD(no_residual, "term convection: has no residual function"),
     TOLD(no_output, "term convection: has no output"),
     TOLD(unknown_place, "acts on unknown points, where = 17"),
-    TOLD(on_surface, "acts on PF_SURFACE points, which this version does not feed yet"),
+    TOLD(on_particles, "acts on PF_PARTICLE points, which this version does not feed yet"),
     TOLD(by_boundary_in_cells, "has PF_BY_BOUNDARY, so it must act on PF_FACET"),
 
     /* slots */
@@ -121,7 +121,7 @@ static const struct CMUnitTest tests[] = {
     TOLD(undeclared_field, "input slot \"u\" uses field \"temperature\", an undeclared dependency"),
     TOLD(wrong_slot_shape, "input slot \"grad_u\": the gradient of field \"u\" has another shape"),
     TOLD(output_of_old_value, "output slot \"v\": eval 5 is not possible there"),
-    TOLD(defect_slot, "slot \"u\" asks for PF_DEFECT, which this version does not feed yet"),
+    TOLD(defect_slot, "slot \"u\" asks for PF_DEFECT, which only PF_CUT and PF_PAIR points have"),
     TOLD(too_many_slots, "268435456 input slots and 1 output slots, at most 12 of each are possible"),
 
     /* parameters */
