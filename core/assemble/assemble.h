@@ -32,6 +32,7 @@ typedef struct near_pair {
  * reference cell, [n][rule->n]. */
 typedef struct body_points {
     const particle *particle;
+    const double (*shift)[3]; /* of attached pairs: from the body to its image there       */
     const cut_rule *rule;
     const uint8_t *off; /* [n_cell] not 0: a body covers the cell or a part of it    */
     int64_t n_pair;
@@ -116,6 +117,7 @@ typedef struct assembly {
     assembly_class *class_;
     struct workspace *work; /* [n_thread] */
     const particle *particle;
+    const double (*shift)[3];
     arena memory;
 } assembly;
 
@@ -129,11 +131,17 @@ typedef struct assembly_spec {
     term_use **use;
 } assembly_spec;
 
+/* Kinds of terms beside the flags of the interface. */
+enum {
+    ASSEMBLE_COUPLING = 1 << 30, /* on points of bodies, with a field of the mesh: what bodies and fluid exchange */
+    ASSEMBLE_CONTACT = 1 << 29   /* on pairs */
+};
+
 /* Where the unknowns stand; all vectors have n_dof entries. */
 typedef struct assembly_state {
     double t, dt, shift;
     const double *x, *dot, *old;
-    uint32_t only; /* not 0: only terms with one of these flags */
+    uint32_t only; /* not 0: only terms with one of these flags, or of one of these kinds */
 } assembly_state;
 
 int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int n_spec, int n_thread, error *err);
@@ -174,6 +182,8 @@ int points_data_update(assembly *a, assembly_class *c, workspace *w, double t, e
 void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
 void points_inputs(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                    workspace *w);
+/* Whether any term of the class takes part in this state. */
+int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s);
 int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                    int with_matrix, int diagnose, workspace *w);
 void element_vector(const assembly *a, const assembly_class *c, int field, workspace *w);

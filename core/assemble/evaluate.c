@@ -98,6 +98,30 @@ static int find_nan(const plan_use *p, const pf_batch *b, double *const *out, co
     return 0;
 }
 
+/* Kinds of a term: its flags, and whether it couples bodies to the fluid or to each other. */
+static uint32_t kinds(const assembly *a, const plan_use *p)
+{
+    const pf_term *t = p->use->term;
+    uint32_t k = t->flags;
+
+    for (uint32_t i = 0; (t->where == PF_SOLID || t->where == PF_SURFACE) && i < t->n_in + t->n_out; i++) {
+        const pf_slot *s = i < t->n_in ? &t->in[i] : &t->out[i - t->n_in];
+
+        if (s->eval != PF_DATA && a->space->field[space_find_field(a->space, s->field)].order > 0)
+            k |= ASSEMBLE_COUPLING;
+    }
+    return k | (t->where == PF_PAIR ? ASSEMBLE_CONTACT : 0);
+}
+
+int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s)
+{
+    int any = !s->only;
+
+    for (int u = 0; u < c->n_use; u++)
+        any |= (kinds(a, &c->use[u]) & s->only) != 0;
+    return any;
+}
+
 int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                    int with_matrix, int diagnose, workspace *w)
 {
@@ -136,7 +160,7 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
         double *out[TERM_MAX_SLOTS], *at = (double *)w->out;
         int status;
 
-        if (p->use->factor == 0 || (s->only && !(t->flags & s->only)))
+        if (p->use->factor == 0 || (s->only && !(kinds(a, p) & s->only)))
             continue;
         for (uint32_t k = 0; k < t->n_in; k++)
             in[k] = (double *)(w->in + c->input[p->in[k]].at * nq);

@@ -317,6 +317,7 @@ int assembly_set_bodies(assembly *a, const body_points *b, error *err)
     const space *s = a->space;
 
     a->particle = b->particle;
+    a->shift = b->shift;
     for (int k = 0; k < a->n_class; k++) {
         assembly_class *c = &a->class_[k];
 

@@ -89,12 +89,13 @@ static void particle_slots(const assembly *a, const assembly_class *c, int64_t b
     int dim = s->mesh->dim, nq = c->n_q;
 
     for (int l = 0; l < 8; l++) {
-        int32_t id = s->attached_particle[c->group[item_of(c, batch, l)] - s->mesh->n_cell];
+        int64_t attached = c->group[item_of(c, batch, l)] - s->mesh->n_cell;
+        int32_t id = s->attached_particle[attached];
         const particle *p = &a->particle[id];
 
         for (int q = 0; q < nq; q++) {
             for (int k = 0; k < dim; k++)
-                w->arm[k * nq + q][l] = w->x[k * nq + q][l] - p->x[k];
+                w->arm[k * nq + q][l] = w->x[k * nq + q][l] - p->x[k] - a->shift[attached][k];
             w->density[q][l] = p->density;
             w->id[q * 8 + l] = id;
         }

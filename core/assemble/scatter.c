@@ -151,6 +151,8 @@ int assembly_run(assembly *a, const assembly_state *s, double *residual, double 
     for (int k = 0; k < a->n_class; k++) {
         assembly_class *c = &a->class_[k];
 
+        if (!evaluate_any(a, c, s))
+            continue;
         TRY(points_data_update(a, c, &a->work[0], s->t, err));
         for (int i = 0; i < a->n_thread; i++)
             a->work[i].failed_batch = -1;

@@ -4,6 +4,7 @@
  * writes them), with a spoke that shows how each is turned, and the paths of their centres. */
 #include "io/picture_parts.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -81,6 +82,15 @@ int bodies_read(const char *vtu_path, double time, picture_bodies *b, arena *a, 
     return 0;
 }
 
+/* A body that went through a periodic boundary: it moved by more than twice its size in one step. */
+static int jumps(const picture_bodies *b, long i)
+{
+    const double(*p)[2] = (const double(*)[2])b->point + (i % b->n) * POINTS;
+    double size = hypot(p[1][0] - p[0][0], p[1][1] - p[0][1]);
+
+    return hypot(b->step[i][0] - b->step[i - b->n][0], b->step[i][1] - b->step[i - b->n][1]) > 4 * size;
+}
+
 void bodies_draw(cairo_t *cr, const picture_bodies *b, double em, const bodies_place *place)
 {
     cairo_set_line_width(cr, 0.05 * em);
@@ -88,7 +98,7 @@ void bodies_draw(cairo_t *cr, const picture_bodies *b, double em, const bodies_p
     for (long i = 0; i < b->n_step; i++) {
         double x = place->x(place->ctx, b->step[i][0]), y = place->y(place->ctx, b->step[i][1]);
 
-        if (i < b->n)
+        if (i < b->n || jumps(b, i))
             continue;
         cairo_move_to(cr, place->x(place->ctx, b->step[i - b->n][0]), place->y(place->ctx, b->step[i - b->n][1]));
         cairo_line_to(cr, x, y);

@@ -291,6 +291,10 @@ int mesh_make_periodic(mesh *m, int a, int b, error *err)
             q = m->master[q];
         m->master[p > q ? p : q] = p > q ? q : p;
     }
+    for (int k = 0; k < m->dim; k++) {
+        m->period_at[m->n_period][k] = centre[0][k];
+        m->period_vector[m->n_period][k] = centre[1][k] - centre[0][k];
+    }
     m->period[m->n_period][0] = a;
     m->period[m->n_period++][1] = b;
     return 0;

@@ -30,7 +30,9 @@ typedef struct mesh {
     char *name[MESH_MAX_NAMES];
     int n_period; /* periodic pairs of boundary names          */
     int period[MESH_MAX_NAMES][2];
-    int32_t *master; /* [n_node] node that carries the unknowns (itself, unless periodic) */
+    double period_at[MESH_MAX_NAMES][3];     /* centre of the first of them                */
+    double period_vector[MESH_MAX_NAMES][3]; /* from there to the second                   */
+    int32_t *master;                         /* [n_node] node that carries the unknowns (itself, unless periodic) */
     arena memory;
 } mesh;
 

@@ -226,14 +226,15 @@ int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, 
 }
 
 /* Position relative to the body's centre and Jacobian determinant at interpolation point q. */
-static double place(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, int q, double *arm)
+static double place(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, const double *shift, int q,
+                    double *arm)
 {
     double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], j[3][3], det;
 
     fe_basis(r->type, 2, r->x[q], n, dn);
     det = mesh_map(m, cell, n, (const double(*)[3])dn, arm, j);
     for (int a = 0; a < m->dim; a++)
-        arm[a] -= p->x[a];
+        arm[a] -= p->x[a] + shift[a];
     return det;
 }
 
@@ -251,8 +252,8 @@ static int moments_at(int dim, const double *arm, double radius, double *m)
     return n;
 }
 
-int cut_correct(const cut_rule *r, const mesh *m, const particle *p, const int32_t *cell, double *w, int64_t n,
-                double fraction, error *err)
+int cut_correct(const cut_rule *r, const mesh *m, const particle *p, const int32_t *cell, const double (*shift)[3],
+                double *w, int64_t n, double fraction, error *err)
 {
     const shape *s = &p->shape;
     double a[10][10] = {{0}}, target[10] = {0}, rotation[3][3], have[10] = {0}, basis[10], arm[3];
@@ -260,7 +261,7 @@ int cut_correct(const cut_rule *r, const mesh *m, const particle *p, const int32
 
     for (int64_t i = 0; i < n; i++)
         for (int q = 0; q < r->n; q++) {
-            double det = place(r, m, cell[i], p, q, arm);
+            double det = place(r, m, cell[i], p, shift[i], q, arm);
 
             moments_at(m->dim, arm, s->radius, basis);
             for (int b = 0; b < k; b++) {
@@ -305,7 +306,7 @@ int cut_correct(const cut_rule *r, const mesh *m, const particle *p, const int32
         for (int q = 0; q < r->n; q++) {
             double f = 1;
 
-            place(r, m, cell[i], p, q, arm);
+            place(r, m, cell[i], p, shift[i], q, arm);
             moments_at(m->dim, arm, s->radius, basis);
             for (int b = 0; b < k; b++)
                 f += target[b] * basis[b];

@@ -94,8 +94,9 @@ void cut_rule_destroy(cut_rule *r);
 int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, double *w);
 
 /* Multiplies the weights of a body that lies inside the mesh by 1 + c0 + c.r + r.C.r so that volume,
- * centroid and second moments are exact.  item: n cells with weights; fraction: of the body inside the domain. */
-int cut_correct(const cut_rule *r, const mesh *m, const particle *p, const int32_t *cell, double *w, int64_t n,
-                double fraction, error *err);
+ * centroid and second moments are exact.  n cells with weights, shift: of the body's image in each of them;
+ * fraction: of the body inside the domain. */
+int cut_correct(const cut_rule *r, const mesh *m, const particle *p, const int32_t *cell, const double (*shift)[3],
+                double *w, int64_t n, double fraction, error *err);
 
 #endif

@@ -100,19 +100,25 @@ static int attach(problem *p, error *err)
         n = 0;
         for (int k = 0; k < p->n_particle; k++) {
             const particle *q = &p->particle[k];
-            int64_t here = cell_grid_ball(&p->grid, q->x, q->shape.radius + MARGIN * p->h_max, list);
 
-            for (int64_t i = 0; pass && i < here; i++) {
-                s->attached_cell[n + i] = list[i];
-                s->attached_particle[n + i] = k;
+            for (int j = 0; j < p->n_image; j++) {
+                double x[3] = {q->x[0] + p->image[j][0], q->x[1] + p->image[j][1], q->x[2] + p->image[j][2]};
+                int64_t here = cell_grid_ball(&p->grid, x, q->shape.radius + MARGIN * p->h_max, list);
+
+                for (int64_t i = 0; pass && i < here; i++) {
+                    s->attached_cell[n + i] = list[i];
+                    s->attached_particle[n + i] = k;
+                    memcpy(p->shift[n + i], p->image[j], sizeof p->image[j]);
+                }
+                n += here;
             }
-            n += here;
             memcpy(p->envelope + 3 * k, q->x, 3 * sizeof *q->x);
         }
         if (pass)
             break;
         ARENA_NEW(&p->envelope_memory, s->attached_cell, n + 1, err);
         ARENA_NEW(&p->envelope_memory, s->attached_particle, n + 1, err);
+        ARENA_NEW(&p->envelope_memory, p->shift, n + 1, err);
     }
     s->n_attached = n;
     TRY(problem_link(p, 2 * MARGIN * p->h_max, err));
@@ -159,19 +165,27 @@ static int cut(problem *p, error *err)
         const particle *q = &p->particle[k];
         int64_t first = p->n_covered, n;
         double volume = 0, fraction;
+        double(*shift)[3];
         int32_t *cell;
         int inside;
 
-        for (; a < s->n_attached && s->attached_particle[a] == k; a++)
-            if ((inside =
-                     cut_cell(&p->cut, &p->mesh, s->attached_cell[a], q, p->weight + p->n_covered * p->cut.n))) {
+        for (; a < s->n_attached && s->attached_particle[a] == k; a++) {
+            particle here = *q;
+
+            for (int i = 0; i < 3; i++)
+                here.x[i] += p->shift[a][i];
+            if ((inside = cut_cell(&p->cut, &p->mesh, s->attached_cell[a], &here,
+                                   p->weight + p->n_covered * p->cut.n))) {
                 p->whole_inside[p->n_covered] = inside == 2;
                 p->covered[p->n_covered++] = (int32_t)a;
             }
+        }
         n = p->n_covered - first;
         ARENA_NEW(&p->step_memory, cell, n + 1, err);
+        ARENA_NEW(&p->step_memory, shift, n + 1, err);
         for (int64_t i = 0; i < n; i++) {
             cell[i] = s->attached_cell[p->covered[first + i]];
+            memcpy(shift[i], p->shift[p->covered[first + i]], sizeof *shift);
             for (int j = 0; j < p->cut.n; j++)
                 volume +=
                     p->weight[(first + i) * p->cut.n + j] / p->mesh.type->measure * pow(p->mesh.h[cell[i]], p->dim);
@@ -186,7 +200,8 @@ static int cut(problem *p, error *err)
                 fraction = pow(0.5, i);
         if (fraction == 1 && fabs(volume / q->shape.volume - 1) > 0.05)
             fraction = 0;
-        TRY(cut_correct(&p->cut, &p->mesh, q, cell, p->weight + first * p->cut.n, n, fraction, err));
+        TRY(cut_correct(&p->cut, &p->mesh, q, cell, (const double(*)[3])shift, p->weight + first * p->cut.n, n,
+                        fraction, err));
     }
     return 0;
 }
@@ -291,6 +306,7 @@ int problem_cut(problem *p, double *x, error *err)
     if (p->system.linear.solver)
         TRY(assembly_set_bodies(&p->system.assembly,
                                 &(body_points){.particle = p->particle,
+                                               .shift = (const double(*)[3])p->shift,
                                                .rule = &p->cut,
                                                .off = p->fluid_off,
                                                .n_pair = p->n_pair,
@@ -304,6 +320,39 @@ int problem_cut(problem *p, double *x, error *err)
                                 err));
     p->geometry_seconds += solve_seconds() - start;
     return 0;
+}
+
+/* Shifts of the images of a body: by -1, 0 or 1 of each period; zero first. */
+static void list_images(problem *p)
+{
+    const mesh *m = &p->mesh;
+
+    p->n_image = 1;
+    for (int k = 0; k < m->n_period && k < 3; k++) {
+        int n = p->n_image;
+
+        for (int sign = -1; sign <= 1; sign += 2)
+            for (int i = 0; i < n; i++, p->n_image++)
+                for (int c = 0; c < 3; c++)
+                    p->image[p->n_image][c] = p->image[i][c] + sign * m->period_vector[k][c];
+    }
+}
+
+/* A body that left through a periodic boundary comes in again on the other side. */
+static void wrap(const problem *p, particle *q)
+{
+    const mesh *m = &p->mesh;
+
+    for (int k = 0; k < m->n_period; k++) {
+        double along = 0, size = 0;
+
+        for (int i = 0; i < p->dim; i++) {
+            along += (q->x[i] - m->period_at[k][i]) * m->period_vector[k][i];
+            size += m->period_vector[k][i] * m->period_vector[k][i];
+        }
+        for (int i = 0; i < p->dim; i++)
+            q->x[i] -= floor(along / size) * m->period_vector[k][i];
+    }
 }
 
 int problem_make_particles(problem *p, error *err)
@@ -321,6 +370,7 @@ int problem_make_particles(problem *p, error *err)
 
         fe_basis(p->mesh.type, 2, p->cut.x[q], p->cut_basis + q * p->mesh.type->n_node, ignored);
     }
+    list_images(p);
     TRY(cell_grid_create(&p->grid, &p->mesh, err));
     ARENA_NEW(&p->memory, p->envelope, 3 * p->n_particle, err);
     for (int i = 0; i < 2; i++)
@@ -352,6 +402,7 @@ int problem_move(void *problem_, enum move what, int slot, double dt, const doub
         for (int i = 0; w >= 0 && i < (p->dim == 2 ? 1 : 3); i++)
             turn[p->dim == 2 ? 2 : i] = 0.5 * dt * (u0[w + i] + u1[w + i]);
         particle_turn(q, turn);
+        wrap(p, q);
     }
     return what == MOVE_PREDICT ? problem_cut(p, u1, err) : 0;
 }

@@ -21,17 +21,24 @@ static unsigned walls_of(const problem *p)
     return walls;
 }
 
-/* Centre distance, and unit vector from b to a. */
+/* Distance from the centre of b to that of the nearest image of a, and the unit vector along it. */
 static double separation(const problem *p, const particle *a, const particle *b, double *n)
 {
-    double d = 0;
+    double least = INFINITY;
 
-    for (int k = 0; k < p->dim; k++)
-        d += (a->x[k] - b->x[k]) * (a->x[k] - b->x[k]);
-    d = sqrt(d);
-    for (int k = 0; k < p->dim; k++)
-        n[k] = (a->x[k] - b->x[k]) / d;
-    return d;
+    for (int i = 0; i < p->n_image; i++) {
+        double r[3], d = 0;
+
+        for (int k = 0; k < p->dim; k++) {
+            r[k] = a->x[k] + p->image[i][k] - b->x[k];
+            d += r[k] * r[k];
+        }
+        d = sqrt(d);
+        for (int k = 0; d < least && k < p->dim; k++)
+            n[k] = d > 0 ? r[k] / d : k == 0;
+        least = fmin(d, least);
+    }
+    return least;
 }
 
 int problem_link(problem *p, double drift, error *err)

@@ -87,6 +87,9 @@ typedef struct problem {
     particle *remembered[2]; /* [n_particle] places to come back to                    */
     cell_grid grid;
     cut_rule cut;
+    int n_image;           /* images of a body by the periods of the mesh: 1, 3, 9, 27   */
+    double image[27][3];   /* their shifts; the first is zero                            */
+    double (*shift)[3];    /* of attached pairs: of the image that is there              */
     double *envelope;      /* [n_particle][3] centre when cells were attached        */
     double *whole;         /* [n_dof] int phi_i^2 over the domain, restricted fields */
     double *inside;        /* [n_dof] the same over the bodies                       */

@@ -13,11 +13,13 @@
 
 enum { OUTLINE = 96 };
 
-static const char *const columns_2d[] = {"t", "id",    "x",  "y",  "angle",  "u",
-                                         "v", "omega", "fx", "fy", "torque", "active_nodes"};
-static const char *const columns_3d[] = {"t",  "id", "x",  "y",  "z",       "q0",          "q1",      "q2",
-                                         "q3", "u",  "v",  "w",  "omega_x", "omega_y",     "omega_z", "fx",
-                                         "fy", "fz", "tx", "ty", "tz",      "active_nodes"};
+static const char *const columns_2d[] = {"t",     "id", "x",  "y",      "angle",     "u",         "v",
+                                         "omega", "fx", "fy", "torque", "contact_x", "contact_y", "active_nodes"};
+static const char *const columns_3d[] = {
+    "t",  "id", "x",  "y",         "z",         "q0",        "q1",          "q2", "q3",
+    "u",  "v",  "w",  "omega_x",   "omega_y",   "omega_z",   "fx",          "fy", "fz",
+    "tx", "ty", "tz", "contact_x", "contact_y", "contact_z", "active_nodes"};
+enum { COLUMNS_2D = 14, COLUMNS_3D = 25 };
 
 int particles_open(run *r, error *err)
 {
@@ -25,10 +27,11 @@ int particles_open(run *r, error *err)
 
     if (r->p->n_particle == 0)
         return 0;
-    ARENA_NEW(&r->p->memory, r->body_row, r->p->n_particle + 22, err);
+    ARENA_NEW(&r->p->memory, r->body_row, r->p->n_particle + COLUMNS_3D, err);
+    ARENA_NEW(&r->p->memory, r->contact, r->p->space.n_dof, err);
     snprintf(path, sizeof path, "%s/particles.csv", r->dir);
-    return r->p->dim == 2 ? table_create(&r->particles, path, columns_2d, 12, err)
-                          : table_create(&r->particles, path, columns_3d, 22, err);
+    return r->p->dim == 2 ? table_create(&r->particles, path, columns_2d, COLUMNS_2D, err)
+                          : table_create(&r->particles, path, columns_3d, COLUMNS_3D, err);
 }
 
 /* Nodes of the active set near each body. */
@@ -79,6 +82,8 @@ int particles_write(run *r, double t, error *err)
     count_active(p, active);
     TRY(newton_residual(&p->system, &fluid, p->x, p->system.trial, err));
     force = p->system.trial;
+    fluid.only = ASSEMBLE_CONTACT;
+    TRY(newton_residual(&p->system, &fluid, p->x, r->contact, err));
     for (int k = 0; k < p->n_particle; k++) {
         const particle *q = &p->particle[k];
         int64_t u = problem_particle_dof(p, k, PF_VECTOR), w = problem_particle_dof(p, k, PF_SPIN);
@@ -100,9 +105,63 @@ int particles_write(run *r, double t, error *err)
             *at++ = u >= 0 ? -force[u + i] : 0;
         for (int i = 0; i < n_spin; i++)
             *at++ = w >= 0 ? -force[w + i] : 0;
+        for (int i = 0; i < p->dim; i++)
+            *at++ = u >= 0 ? -r->contact[u + i] : 0;
         *at = round(active[k]);
         TRY(table_add(&r->particles, row, err));
     }
+    return 0;
+}
+
+double particles_energy(const run *r)
+{
+    const problem *p = r->p;
+    double sum = 0;
+
+    for (int k = 0; k < p->n_particle; k++) {
+        const particle *q = &p->particle[k];
+        int64_t u = problem_particle_dof(p, k, PF_VECTOR), w = problem_particle_dof(p, k, PF_SPIN);
+        double axes[3][3], trace = q->shape.moment[0][0] + q->shape.moment[1][1] + q->shape.moment[2][2];
+
+        for (int i = 0; u >= 0 && i < p->dim; i++)
+            sum += 0.5 * q->density * q->shape.volume * p->x[u + i] * p->x[u + i];
+        if (w >= 0 && p->dim == 2)
+            sum += 0.5 * q->density * (q->shape.moment[0][0] + q->shape.moment[1][1]) * p->x[w] * p->x[w];
+        if (w < 0 || p->dim == 2)
+            continue;
+        particle_rotation(q, axes);
+        for (int i = 0; i < 3; i++) /* spin in the body's frame; I = trace(M) 1 - M */
+            for (int j = 0; j < 3; j++) {
+                double wi = 0, wj = 0;
+
+                for (int c = 0; c < 3; c++) {
+                    wi += axes[c][i] * p->x[w + c];
+                    wj += axes[c][j] * p->x[w + c];
+                }
+                sum += 0.5 * q->density * wi * wj * ((i == j ? trace : 0) - q->shape.moment[i][j]);
+            }
+    }
+    return sum;
+}
+
+int particles_balance(run *r, double *balance, error *err)
+{
+    problem *p = r->p;
+    const space *s = &p->space;
+    newton_time coupling = r->last;
+    double sum[3] = {0}, size = 0;
+
+    coupling.only = ASSEMBLE_COUPLING;
+    TRY(newton_residual(&p->system, &coupling, p->x, r->contact, err));
+    for (int64_t d = 0; d < s->n_dof; d++) {
+        const space_field *f = &s->field[s->dof_field[d]];
+
+        if (f->shape != PF_VECTOR || f->support == PF_IN_PARTICLES)
+            continue;
+        sum[s->dof_comp[d]] += r->contact[d];
+        size += f->support == PF_ON_PARTICLE ? fabs(r->contact[d]) : 0;
+    }
+    *balance = size > 0 ? sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / size : 0;
     return 0;
 }
 

@@ -67,6 +67,18 @@ static int log_solve(run *r, double t, double dt, const newton_report *report, e
         text_number(&s, report->history[i]);
     }
     text_add(&s, "]");
+    if (r->p->n_particle) {
+        double balance;
+
+        if (particles_balance(r, &balance, err)) {
+            text_free(&s);
+            return err->code;
+        }
+        text_add(&s, ", \"particles\": %d, \"kinetic_energy\": ", r->p->n_particle);
+        text_number(&s, particles_energy(r));
+        text_add(&s, ", \"momentum_defect\": ");
+        text_number(&s, balance);
+    }
     status = s.failed ? error_memory(err, "log", 0) : output_event(r, "solve", s.s, err);
     text_free(&s);
     return status;
@@ -158,9 +170,9 @@ static int one_step(run *r, stepper *s, double next, error *err)
     memcpy(p->x, s->x, (size_t)p->space.n_dof * sizeof *p->x);
     gauge_zero_mean(&p->system, p->x);
     memcpy(r->residual, s->residual, (size_t)p->space.n_dof * sizeof *r->residual);
+    r->last = s->last;
     TRY(log_solve(r, s->t, s->dt_previous, &s->report, err));
     TRY(output_series(r, s->t, err));
-    r->last = s->last;
     TRY(particles_write(r, s->t, err));
     progress = (run_progress){.step = r->result->steps,
                               .steps = lround(ceil((p->time.stop - p->time.start) / p->time.step * (1 - 1e-12))),

@@ -49,6 +49,7 @@ typedef struct run {
     run_result *result;
     table forces, probes, particles;
     newton_time last; /* of the state that is written */
+    double *contact;  /* [n_dof] rows of some terms only */
     double *body_row; /* room for a row of particles.csv, and a count a body */
     int n_body_file;
     char **body_file;
@@ -70,6 +71,9 @@ int output_fields(run *r, double t, error *err); /* a .vtu and the .pvd         
 int output_lines(run *r, double t, error *err);
 int output_event(run *r, const char *event, const char *fields_json, error *err);
 int particles_open(run *r, error *err);
+double particles_energy(const run *r); /* kinetic, J */
+/* |force on the fluid + force on the bodies| by the terms that couple them, over the sum of forces on bodies. */
+int particles_balance(run *r, double *balance, error *err);
 int particles_write(run *r, double t, error *err); /* particles.csv, every step          */
 int particles_outline(run *r, error *err);         /* a .vtp for the file of fields just written */
 int output_summary(run *r, error *err);

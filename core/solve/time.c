@@ -61,7 +61,8 @@ static int step(stepper *p, int order, double dt, int *converged, error *err)
     }
     TRY(p->dirichlet(p->dirichlet_ctx, time.t, p->x, err));
     TRY(move(p, MOVE_REMEMBER, 0, 0, NULL, NULL, err));
-    TRY(move(p, MOVE_PREDICT, 0, dt, p->save[2], p->x, err));
+    if (move(p, MOVE_PREDICT, 0, dt, p->save[2], p->x, err))
+        return error_prefix(err, "t = %.6g: ", time.t);
     TRY(newton_solve(s, &time, &p->options, p->x, &p->report, err));
     p->newton_iterations += p->report.iterations;
     *converged = p->report.converged;

@@ -73,6 +73,7 @@ static void volume_centroid_and_inertia_are_exact(void **state)
             cut_rule r;
             particle p;
             double *w, volume, first[3], second[3][3], rotation[3][3], raw;
+            double(*shift)[3];
             int32_t *cell;
             int64_t n = 0;
 
@@ -83,12 +84,13 @@ static void volume_centroid_and_inertia_are_exact(void **state)
             assert_int_equal(cut_rule_create(&r, m.type, &err), 0);
             w = malloc((size_t)(m.n_cell * r.n) * sizeof *w);
             cell = malloc((size_t)m.n_cell * sizeof *cell);
+            shift = calloc((size_t)m.n_cell, sizeof *shift);
             for (int32_t e = 0; e < m.n_cell; e++)
                 if (cut_cell(&r, &m, e, &p, w + n * r.n))
                     cell[n++] = e;
             moments(&r, &m, &p, cell, w, n, &raw, first, second);
             assert_true(fabs(raw / p.shape.volume - 1) < 0.02); /* the cut itself is near */
-            assert_int_equal(cut_correct(&r, &m, &p, cell, w, n, 1, &err), 0);
+            assert_int_equal(cut_correct(&r, &m, &p, cell, (const double(*)[3])shift, w, n, 1, &err), 0);
             moments(&r, &m, &p, cell, w, n, &volume, first, second);
             particle_rotation(&p, rotation);
             assert_true(fabs(volume / p.shape.volume - 1) < 1e-12);
@@ -105,6 +107,7 @@ static void volume_centroid_and_inertia_are_exact(void **state)
             }
             free(w);
             free(cell);
+            free(shift);
             cut_rule_destroy(&r);
             mesh_destroy(&m);
         }
