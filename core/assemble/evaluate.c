@@ -2,6 +2,7 @@
  *
  * Terms at the points of a batch: their outputs are added up per test function, their
  * derivatives per pair of test and trial function. */
+#include "base/text.h"
 #include "assemble/assemble.h"
 
 #include <math.h>
@@ -88,11 +89,11 @@ static int find_nan(const plan_use *p, const pf_batch *b, double *const *out, co
         for (size_t i = 0, n = (size_t)term_components(t->out[o].shape, (int)b->dim) * b->ld; i < n; i++)
             if (!isfinite(out[o][i])) {
                 size_t l = i % b->ld;
+                double x[3] = {b->x[l], b->x[b->ld + l], b->dim == 3 ? b->x[2 * b->ld + l] : 0};
 
                 r->status = PF_FAIL;
-                snprintf(r->text, sizeof r->text, "term %s.%s: %s \"%s\" is %g at x = (%.6g, %.6g%s%.6g), t = %.6g",
-                         r->plugin, r->term, what, t->out[o].name, out[o][i], b->x[l], b->x[b->ld + l],
-                         b->dim == 3 ? ", " : "; ", b->dim == 3 ? b->x[2 * b->ld + l] : 0.0, b->t);
+                snprintf(r->text, sizeof r->text, "term %s.%s: %s \"%s\" is %g at x = %s, t = %.6g", r->plugin,
+                         r->term, what, t->out[o].name, out[o][i], text_point(x, (int)b->dim).s, b->t);
                 return 1;
             }
     return 0;

@@ -117,3 +117,14 @@ const char *text_nearest(const char *name, const char *const *candidate, size_t 
     }
     return nearest;
 }
+
+point_text text_point(const double *x, int dim)
+{
+    point_text p;
+
+    if (dim == 3)
+        snprintf(p.s, sizeof p.s, "(%.6g, %.6g, %.6g)", x[0], x[1], x[2]);
+    else
+        snprintf(p.s, sizeof p.s, "(%.6g, %.6g)", x[0], x[1]);
+    return p;
+}

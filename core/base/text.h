@@ -18,6 +18,12 @@ void text_json(text *t, const char *s); /* "s", escaped                         
 void text_number(text *t, double v);    /* shortest form that reads back the same; null if not finite */
 void text_free(text *t);
 
+/* "(1, 2)" or "(1, 2, 3)"; use as text_point(x, dim).s within one expression. */
+typedef struct point_text {
+    char s[64];
+} point_text;
+point_text text_point(const double *x, int dim);
+
 /* Damerau-Levenshtein distance without case. */
 int text_distance(const char *a, const char *b);
 /* The candidate nearest to name if it is near enough to be a slip, else NULL. */

@@ -20,8 +20,8 @@ typedef struct lua_value {
 
 static int wrong_result(const lua_value *v, const double *x, double t, const char *why, error *err)
 {
-    return error_set(err, ERR_CASE, "%s:%d: function \"%s\" at (%.6g, %.6g%s%.6g), t = %.6g: %s", v->b->file,
-                     v->b->line, v->key, x[0], x[1], v->dim == 3 ? ", " : "; ", v->dim == 3 ? x[2] : 0.0, t, why);
+    return error_set(err, ERR_CASE, "%s:%d: function \"%s\" at %s, t = %.6g: %s", v->b->file, v->b->line, v->key,
+                     text_point(x, v->dim == 3 ? 3 : 2).s, t, why);
 }
 
 /* Calls function `ref`; n results (or a table of n) to out. */

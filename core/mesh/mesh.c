@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Meshes as read from files, sizes and orientation of cells, periodic boundaries. */
+#include "base/text.h"
 #include "mesh/mesh.h"
 
 #include "base/order.h"
@@ -64,11 +65,10 @@ int mesh_measure(mesh *m, error *err)
             double j[3][3], at[3], det = mesh_map(m, e, n[q], (const double(*)[3])dn[q], at, j);
 
             if (!(det > 0))
-                return error_set(
-                    err, ERR_MESH,
-                    "mesh: %s %lld is inverted or folded near (%.6g, %.6g%s%.6g): its Jacobian there is "
-                    "%.3g, which must be positive; move its nodes apart or refine the mesh",
-                    c->name, (long long)e, at[0], at[1], m->dim == 3 ? ", " : "; ", m->dim == 3 ? at[2] : 0.0, det);
+                return error_set(err, ERR_MESH,
+                                 "mesh: %s %lld is inverted or folded near %s: its Jacobian there is "
+                                 "%.3g, which must be positive; move its nodes apart or refine the mesh",
+                                 c->name, (long long)e, text_point(at, m->dim).s, det);
             volume += rule.w[q] * det;
         }
         m->h[e] = pow(volume, 1.0 / m->dim);

@@ -3,6 +3,7 @@
  * The part of a cell inside a body.  Points of a fine rule on the cell are inside or not; what is
  * inside is projected on a fixed set of points, w_q = sum_s w_s L_q(x_s), with L_q of degree 4, so
  * that a cut cell costs no more than a whole one and products of two basis functions stay exact. */
+#include "base/text.h"
 #include "particle/particle.h"
 
 #include <plugflow/mesh.h>
@@ -271,8 +272,7 @@ int cut_correct(const cut_rule *r, const mesh *m, const particle *p, const int32
             }
         }
     if (!(have[0] > 0))
-        return error_set(err, ERR_CASE, "a body at (%.6g, %.6g%s%.6g) lies outside the mesh", p->x[0], p->x[1],
-                         m->dim == 3 ? ", " : "; ", m->dim == 3 ? p->x[2] : 0.0);
+        return error_set(err, ERR_CASE, "a body at %s lies outside the mesh", text_point(p->x, m->dim).s);
     if (fraction < 1) { /* cut by a symmetry plane: its volume is known, the rest is as the cells have it */
         for (int64_t i = 0; i < n * r->n; i++)
             w[i] *= fraction > 0 ? fraction * s->volume / have[0] : 1;

@@ -192,8 +192,10 @@ static int cut(problem *p, error *err)
         }
         if (volume < 1e-9 * q->shape.volume)
             return error_set(err, ERR_CONVERGE,
-                             "particle %d has left the domain: its centre is at (%.6g, %.6g%s%.6g)", k, q->x[0],
-                             q->x[1], p->dim == 3 ? ", " : "; ", p->dim == 3 ? q->x[2] : 0.0);
+                             "particle %d has left the domain: its centre is at %s; for a body that may, stop "
+                             "earlier, or make the "
+                             "boundary periodic",
+                             k, text_point(q->x, p->dim).s);
         fraction = 1; /* a body that reaches over the edge of the domain: half, quarter, eighth, or unknown */
         for (int i = 1; i <= 3; i++)
             if (fabs(volume / q->shape.volume - pow(0.5, i)) < 0.03 * pow(0.5, i))

@@ -193,11 +193,10 @@ static int attach_facets(problem *p, error *err)
                 text_add(&t, "%s\"%s\"", t.n ? ", " : "", m->name[k]);
         case_wrong(
             p->c, NULL, NULL,
-            "%lld boundary facets have no condition: %s%s(the first at (%.4g, %.4g%s%.4g)); give them one, or say "
+            "%lld boundary facets have no condition: %s%s(the first at %s); give them one, or say "
             "boundary \"...\" { natural = true } if nothing is prescribed there; boundary \"*\" {} means all "
             "others",
-            (long long)bare, t.s ? t.s : "without a name ", t.s ? " " : "", x[0], x[1], m->dim == 3 ? ", " : "; ",
-            m->dim == 3 ? x[2] : 0.0);
+            (long long)bare, t.s ? t.s : "without a name ", t.s ? " " : "", text_point(x, m->dim).s);
         text_free(&t);
     }
     return 0;

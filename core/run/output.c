@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * The files of a run: fields, probes, lines, forces, the log and the summary. */
+#include "base/text.h"
 #include "run/run.h"
 
 #include "io/vtu.h"
@@ -150,9 +151,8 @@ static int locate_probes(run *r, error *err)
     for (int i = 0; i < o->n_probe; i++) {
         r->probe_at[i] = locate_point(&p->mesh, o->probe[i].x);
         if (r->probe_at[i].cell < 0)
-            return error_set(err, ERR_CASE, "%s:%d: output: probe \"%s\" at (%g, %g%s%g) lies outside the mesh",
-                             o->block->file, o->block->line, o->probe[i].name, o->probe[i].x[0], o->probe[i].x[1],
-                             p->dim == 3 ? ", " : "; ", o->probe[i].x[2]);
+            return error_set(err, ERR_CASE, "%s:%d: output: probe \"%s\" at %s lies outside the mesh",
+                             o->block->file, o->block->line, o->probe[i].name, text_point(o->probe[i].x, p->dim).s);
     }
     return 0;
 }

@@ -88,6 +88,36 @@ static void two_disks_meet_without_overlap(void **state)
     assert_between(summary("two", "results.smallest_gap"), -0.01, 1);
 }
 
+/* Literature 17.2-17.5 (refdata, case A), up to the largest speed only. */
+static void falling_disk_agrees_on_fine_meshes(void **state)
+{
+    double re[2];
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        assert_ran(
+            plugflow("run cases/falling_disk.lua --quiet --set n=%d --set dt=0.0025 --set stop=0.35 --out %s/fall",
+                     k ? 48 : 32, scratch()),
+            0, NULL);
+        re[k] = summary("fall", "results.re_max");
+        print_message("# falling disk, h = 1/%d cm: Re_max %.3f, geometry %.2g %% of the time\n", k ? 48 : 32,
+                      re[k], 100 * summary("fall", "seconds.geometry") / summary("fall", "seconds.total"));
+        assert_between(summary("fall", "seconds.geometry") / summary("fall", "seconds.total"), 0, 0.05);
+    }
+    assert_between(re[1], 17.1, 17.6);
+    assert_between(re[1] / re[0], 0.985, 1.015);
+}
+
+/* ten Cate et al. 2002, case E4: 0.12224 m/s in the experiment. */
+static void a_settling_sphere_agrees_with_the_experiment(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("run cases/settling_sphere.lua --quiet --out %s/settle", scratch()), 0, NULL);
+    print_message("# settling sphere, E4, 4 cells per diameter: largest speed %.5f m/s, %.4f of the experiment's\n",
+                  summary("settle", "results.speed_max"), summary("settle", "results.ratio"));
+    assert_between(summary("settle", "results.ratio"), 0.95, 1.05);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -97,6 +127,8 @@ int main(void)
         cmocka_unit_test(dfg_3d_1z_is_a_few_per_cent_off_on_its_coarse_mesh),
         cmocka_unit_test(an_ellipse_turns_with_jefferys_period),
         cmocka_unit_test(two_disks_meet_without_overlap),
+        cmocka_unit_test(falling_disk_agrees_on_fine_meshes),
+        cmocka_unit_test(a_settling_sphere_agrees_with_the_experiment),
         cmocka_unit_test(dfg_2d_2_lies_in_the_published_intervals),
     };
 

@@ -99,6 +99,30 @@ static void a_disk_in_shear_turns_with_half_the_rate(void **state)
     }
 }
 
+/* The same in 3D, off the middle, and where the sphere may only turn. */
+static void a_sphere_in_shear_turns_with_half_the_rate(void **state)
+{
+    static const char *const hold[] = {"nothing", "place"};
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        assert_ran(
+            plugflow("run cases/sheared_sphere.lua --quiet --set hold=%s --out %s/shear", hold[k], scratch()), 0,
+            NULL);
+        print_message("# sphere in shear, D/h = 5, hold = %s: omega %.4f\n", hold[k],
+                      summary("shear", "results.omega"));
+        assert_between(summary("shear", "results.omega"), -0.5 * 1.03, -0.5 * 0.97);
+    }
+}
+
+static void a_turning_disk_has_its_torque_and_angle(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("run cases/rotating_disk.lua --quiet --out %s/turn", scratch()), 0, NULL);
+    assert_between(summary("turn", "results.torque"), 0.93, 1.07);
+    assert_between(summary("turn", "results.angle"), 0.5 - 1e-12, 0.5 + 1e-12);
+}
+
 /* Order of a result from three steps, each half of the one before. */
 static double order_in_time(const char *arguments, const char *result)
 {
@@ -287,6 +311,8 @@ int main(void)
         cmocka_unit_test(torque_on_a_disk_at_16_cells),
         cmocka_unit_test(momentum_balance_is_closed),
         cmocka_unit_test(a_disk_in_shear_turns_with_half_the_rate),
+        cmocka_unit_test(a_sphere_in_shear_turns_with_half_the_rate),
+        cmocka_unit_test(a_turning_disk_has_its_torque_and_angle),
         cmocka_unit_test(bodies_are_of_second_order_in_time),
         cmocka_unit_test(a_neutral_body_does_not_notice_gravity),
         cmocka_unit_test(a_neutral_body_in_3d_does_not_notice_gravity),
