@@ -18,7 +18,14 @@
 
 typedef double v8 __attribute__((vector_size(64)));
 
-enum { ASSEMBLE_MAX_INPUTS = 32, ASSEMBLE_MAX_TESTS = 16, ASSEMBLE_MAX_USES = 32, ASSEMBLE_PAD = 3 };
+enum {
+    ASSEMBLE_MAX_INPUTS = 32,
+    ASSEMBLE_MAX_TESTS = 16,
+    ASSEMBLE_MAX_USES = 32,
+    ASSEMBLE_PAD = 3,
+    SURFACE_POINTS = 16,
+    ASSEMBLE_CELL_DEGREE = 5
+};
 
 /* Two bodies near each other, or a body and a wall. */
 typedef struct near_pair {
@@ -40,6 +47,16 @@ typedef struct body_points {
     int64_t n_solid, n_cut; /* attached pairs (space.h) covered; cells cut by a surface  */
     const int32_t *solid, *cut;
     const double *solid_weight, *cut_weight; /* inside of the body; outside of all bodies */
+    int64_t n_surface;                       /* pieces of surface with SURFACE_POINTS points each       */
+    const int32_t *surface;                  /* the attached pair of each                               */
+    const double (*surface_ref)[3],
+        (*surface_normal)[3];     /* of each point: reference coordinates; out of the fluid */
+    const double *surface_weight; /* ds; 0 for points that fill up                         */
+    int64_t n_tie;                /* cells with too little fluid, tied to their roots       */
+    const int64_t *tie;           /* group of the carriers of both                          */
+    const int32_t *tie_cell;
+    const double *tie_weight;
+    const double (*tie_ref)[3]; /* [n_tie][points of a cell] reference coordinates in the root */
 } body_points;
 
 /* A term that the case switched on. */
@@ -81,11 +98,13 @@ typedef struct assembly_class {
     int where;
     int64_t n_item;
     int32_t *cell, *facet;
-    int64_t *group;        /* of each item: the carriers that it adds to (see space.h)       */
-    const near_pair *pair; /* PF_PAIR: of each item */
-    int follows;           /* items come with the bodies */
-    const double *weight;  /* of such items: reference weights, [n_item][n_q]                 */
-    const uint8_t *off;    /* PF_FLUID, whole cells: [n_cell] 1: this cell is none            */
+    int64_t *group;         /* of each item: the carriers that it adds to (see space.h)       */
+    const near_pair *pair;  /* PF_PAIR: of each item */
+    int follows;            /* items come with the bodies */
+    const double *weight;   /* of such items: reference weights, [n_item][n_q]                 */
+    const double (*ref)[3]; /* of such items: [n_item][n_q], see body_points */
+    const double (*normal)[3];
+    const uint8_t *off; /* PF_FLUID, whole cells: [n_cell] 1: this cell is none            */
     int64_t n_batch;
     int64_t *batch; /* first item of each batch, [n_batch + 1]                  */
     int n_slab;

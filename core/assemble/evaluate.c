@@ -127,7 +127,7 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
                    int with_matrix, int diagnose, workspace *w)
 {
     int dim = a->space->mesh->dim;
-    int on_body = c->where == PF_SOLID || c->where == PF_PAIR;
+    int on_body = c->where == PF_SOLID || c->where == PF_SURFACE || c->where == PF_PAIR;
     size_t nq = (size_t)c->n_q, ld = nq * PF_LANES;
     pf_batch b = {
         .size = sizeof b,
@@ -138,9 +138,10 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
         .dt = s->dt,
         .shift = s->shift,
         .x = (double *)w->x,
-        .normal = c->where == PF_FACET || c->where == PF_PAIR ? (double *)w->normal : NULL,
+        .normal =
+            c->where == PF_FACET || c->where == PF_SURFACE || c->where == PF_PAIR ? (double *)w->normal : NULL,
         .h = (double *)w->h,
-        .arm = c->where == PF_SOLID ? (double *)w->arm : NULL,
+        .arm = c->where == PF_SOLID || c->where == PF_SURFACE ? (double *)w->arm : NULL,
         .density = on_body ? (double *)w->density : NULL,
         .id = on_body ? w->id : NULL,
         .gap = c->where == PF_PAIR ? (double *)w->gap : NULL,

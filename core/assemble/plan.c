@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <string.h>
 
-enum { CELL_DEGREE = 5, FACET_DEGREE = 5 };
+enum { FACET_DEGREE = 5 };
 
 static int find_input(assembly_class *c, const space *s, const pf_slot *slot, const value *data, error *err)
 {
@@ -100,11 +100,13 @@ static int place_rules(assembly *a, assembly_class *c, const cut_rule *cut, erro
             TRY(fe_rule_facet(type, f, FACET_DEGREE, r, c->tangent[f], &c->orient[f], err));
         } else if (c->where == PF_PAIR) {
             r->n = 1; /* any point of the cell: weight 1, and no field of the mesh */
+        } else if (c->where == PF_SURFACE) {
+            r->n = SURFACE_POINTS; /* where they are comes with the bodies */
         } else if (cut) {
             r->n = cut->n;
             memcpy(r->x, cut->x, (size_t)cut->n * sizeof *r->x);
         } else {
-            TRY(fe_rule_cell(type, CELL_DEGREE, r, err));
+            TRY(fe_rule_cell(type, ASSEMBLE_CELL_DEGREE, r, err));
         }
         c->n_q = r->n;
         for (int order = 0; order < 3; order++) {
@@ -200,7 +202,7 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
     int serial;
 
     c->where = spec->where;
-    c->follows = spec->rule != NULL || spec->where == PF_PAIR;
+    c->follows = spec->rule != NULL || spec->where == PF_PAIR || spec->where == PF_SURFACE || spec->where == PF_CUT;
     serial = c->follows || c->where == PF_FACET;
     for (int order = 0; order < 3; order++)
         c->n_basis[order] =
@@ -303,6 +305,7 @@ static int renew_items(assembly_class *c, int64_t n, error *err)
     return 0;
 }
 
+/* Items of the classes that follow the bodies, one function for each kind of points. */
 static int set_pairs(assembly_class *c, const body_points *b, error *err)
 {
     TRY(renew_items(c, b->n_pair, err));
@@ -312,10 +315,53 @@ static int set_pairs(assembly_class *c, const body_points *b, error *err)
     return 0;
 }
 
+static int set_solid(const space *s, assembly_class *c, const body_points *b, error *err)
+{
+    TRY(renew_items(c, b->n_solid, err));
+    c->weight = b->solid_weight;
+    for (int64_t i = 0; i < b->n_solid; i++) {
+        c->cell[i] = s->attached_cell[b->solid[i]];
+        c->group[i] = s->mesh->n_cell + b->solid[i];
+    }
+    return 0;
+}
+
+static int set_cut(assembly_class *c, const body_points *b, error *err)
+{
+    TRY(renew_items(c, b->n_cut, err));
+    c->weight = b->cut_weight;
+    for (int64_t i = 0; i < b->n_cut; i++)
+        c->group[i] = c->cell[i] = b->cut[i];
+    return 0;
+}
+
+static int set_surface(const space *s, assembly_class *c, const body_points *b, error *err)
+{
+    TRY(renew_items(c, b->n_surface, err));
+    c->weight = b->surface_weight;
+    c->ref = b->surface_ref;
+    c->normal = b->surface_normal;
+    for (int64_t i = 0; i < b->n_surface; i++) {
+        c->cell[i] = s->attached_cell[b->surface[i]];
+        c->group[i] = s->mesh->n_cell + b->surface[i];
+    }
+    return 0;
+}
+
+static int set_ties(assembly_class *c, const body_points *b, error *err)
+{
+    TRY(renew_items(c, b->n_tie, err));
+    c->weight = b->tie_weight;
+    c->ref = b->tie_ref;
+    for (int64_t i = 0; i < b->n_tie; i++) {
+        c->cell[i] = b->tie_cell[i];
+        c->group[i] = b->tie[i];
+    }
+    return 0;
+}
+
 int assembly_set_bodies(assembly *a, const body_points *b, error *err)
 {
-    const space *s = a->space;
-
     a->particle = b->particle;
     a->shift = b->shift;
     for (int k = 0; k < a->n_class; k++) {
@@ -323,22 +369,16 @@ int assembly_set_bodies(assembly *a, const body_points *b, error *err)
 
         if (c->where == PF_PAIR)
             TRY(set_pairs(c, b, err));
-    }
-    for (int k = 0; k < a->n_class; k++) {
-        assembly_class *c = &a->class_[k];
-        int solid = c->where == PF_SOLID;
-        int64_t n = solid ? b->n_solid : b->n_cut;
-
-        if (c->where == PF_FLUID && !c->follows)
+        else if (c->where == PF_SOLID)
+            TRY(set_solid(a->space, c, b, err));
+        else if (c->where == PF_FLUID && c->follows)
+            TRY(set_cut(c, b, err));
+        else if (c->where == PF_FLUID)
             c->off = b->off;
-        if (!solid && (c->where != PF_FLUID || !c->follows))
-            continue;
-        TRY(renew_items(c, n, err));
-        c->weight = solid ? b->solid_weight : b->cut_weight;
-        for (int64_t i = 0; i < n; i++) {
-            c->cell[i] = solid ? s->attached_cell[b->solid[i]] : b->cut[i];
-            c->group[i] = solid ? s->mesh->n_cell + b->solid[i] : b->cut[i];
-        }
+        else if (c->where == PF_SURFACE)
+            TRY(set_surface(a->space, c, b, err));
+        else if (c->where == PF_CUT)
+            TRY(set_ties(c, b, err));
     }
     return 0;
 }

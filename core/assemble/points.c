@@ -127,6 +127,77 @@ static void points_of_pairs(const assembly *a, const assembly_class *c, int64_t 
     }
 }
 
+/* Points that each item has of its own, on a piece of surface. */
+static void points_of_surface(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
+{
+    const mesh *m = a->space->mesh;
+    const fe_cell *type = m->type;
+    int dim = m->dim, nq = c->n_q;
+
+    for (int l = 0; l < 8; l++) {
+        int64_t item = item_of(c, batch, l), cell = c->cell[item];
+
+        for (int q = 0; q < nq; q++) {
+            const double *xi = c->ref[item * nq + q];
+            double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], x[3], j[3][3], inv[3][3];
+            double det;
+
+            fe_basis(type, 2, xi, n, dn);
+            det = mesh_map(m, cell, n, (const double(*)[3])dn, x, j);
+            for (int b = 0; b < 3; b++)
+                for (int k = 0; k < 3; k++) /* j is the identity in the unused direction */
+                    inv[b][k] = (j[(k + 1) % 3][(b + 1) % 3] * j[(k + 2) % 3][(b + 2) % 3] -
+                                 j[(k + 1) % 3][(b + 2) % 3] * j[(k + 2) % 3][(b + 1) % 3]) /
+                                det;
+            w->w[q][l] = c->weight[item * nq + q];
+            w->h[q][l] = m->h[cell];
+            for (int k = 0; k < dim; k++) {
+                w->x[k * nq + q][l] = x[k];
+                w->normal[k * nq + q][l] = c->normal[item * nq + q][k];
+            }
+            for (int order = 0; order < 3; order++) {
+                int n_basis = c->order_used[order] ? fe_n_basis(type, order) : 0;
+
+                if (order != 2 && n_basis)
+                    fe_basis(type, order, xi, n, dn);
+                else if (n_basis)
+                    fe_basis(type, 2, xi, n, dn);
+                for (int i = 0; i < n_basis; i++) {
+                    w->basis[order][0][i * nq + q][l] = n[i];
+                    for (int k = 0; c->grad_used[order] && k < dim; k++)
+                        w->basis[order][k + 1][i * nq + q][l] =
+                            inv[0][k] * dn[i][0] + inv[1][k] * dn[i][1] + (dim == 3 ? inv[2][k] * dn[i][2] : 0);
+                }
+                for (int i = n_basis; n_basis && i < assemble_padded(n_basis); i++)
+                    for (int k = 0; k <= dim; k++)
+                        w->basis[order][k][i * nq + q][l] = 0;
+            }
+        }
+    }
+}
+
+/* The root of a bad cell: its basis at the points of the bad one, with the opposite sign. */
+static void points_of_roots(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
+{
+    const fe_cell *type = a->space->mesh->type;
+    int nq = c->n_q;
+
+    for (int l = 0; l < 8; l++)
+        for (int q = 0; q < nq; q++) {
+            int64_t item = item_of(c, batch, l);
+
+            w->w[q][l] *= c->weight[item];
+            for (int order = 1; order < 3; order++) {
+                int n_basis = fe_n_basis(type, order);
+                double n[FE_MAX_NODES], dn[FE_MAX_NODES][3];
+
+                fe_basis(type, order, c->ref[item * nq + q], n, dn);
+                for (int i = 0; c->order_used[order] && i < assemble_padded(2 * n_basis) - n_basis; i++)
+                    w->basis[order][0][(n_basis + i) * nq + q][l] = i < n_basis ? -n[i] : 0;
+            }
+        }
+}
+
 void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
 {
     const mesh *m = a->space->mesh;
@@ -136,6 +207,11 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
 
     if (c->where == PF_PAIR) {
         points_of_pairs(a, c, batch, w);
+        return;
+    }
+    if (c->where == PF_SURFACE) {
+        points_of_surface(a, c, batch, w);
+        particle_slots(a, c, batch, w);
         return;
     }
     for (int l = 0; l < 8; l++) {
@@ -157,7 +233,7 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
             for (int k = 0; k < dim; k++)
                 w->normal[k * nq + q] = n[k];
         }
-        if (c->weight)
+        if (c->weight && c->where != PF_CUT)
             for (int l = 0; l < 8; l++)
                 w->w[q][l] = det[l] * c->weight[item_of(c, batch, l) * nq + q];
         else
@@ -189,6 +265,8 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
                     w->basis[order][k][i * nq + q] = (v8){0};
         }
     }
+    if (c->where == PF_CUT)
+        points_of_roots(a, c, batch, w);
     if (c->where == PF_SOLID)
         particle_slots(a, c, batch, w);
 }

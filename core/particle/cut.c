@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The part of a cell inside a body.  Points of a fine rule on the cell are inside or not; what is
- * inside is projected on a fixed set of points, w_q = sum_s w_s L_q(x_s), with L_q of degree 4, so
- * that a cut cell costs no more than a whole one and products of two basis functions stay exact. */
+ * The part of a cell inside a body (implicit.c), projected on a fixed set of points, w_q = sum_s w_s L_q(x_s), with
+ * L_q of degree 4, so that a cut cell costs no more than a whole one and products of two basis functions stay
+ * exact. */
 #include "base/text.h"
 #include "particle/particle.h"
 
@@ -12,21 +12,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEGREE = 4, SUBCELLS_2D = 8, SUBCELLS_3D = 4 };
-
-/* Value at s of the Lagrange polynomial i on the 5 Gauss points g. */
-static double lagrange(const double *g, int i, double s)
-{
-    double v = 1;
-
-    for (int k = 0; k <= DEGREE; k++)
-        if (k != i)
-            v *= (s - g[k]) / (g[i] - g[k]);
-    return v;
-}
+enum { DEGREE = 4 };
 
 static const double gauss5[5] = {-0.90617984593866399280, -0.53846931010568309104, 0, 0.53846931010568309104,
                                  0.90617984593866399280};
+
+/* Values at s of the Lagrange polynomials on the 5 Gauss points. */
+static void lagrange(double s, double l[5])
+{
+    for (int i = 0; i < 5; i++) {
+        l[i] = 1;
+        for (int k = 0; k < 5; k++)
+            if (k != i)
+                l[i] *= (s - gauss5[k]) / (gauss5[i] - gauss5[k]);
+    }
+}
 
 /* Monomials up to degree 4 in dim variables. */
 static int monomials(int dim, const double *x, double *m)
@@ -109,7 +109,7 @@ static int place_points(cut_rule *r, error *err)
 static void project(const cut_rule *r, const double *x, double *l)
 {
     int dim = r->type->dim;
-    double m[CUT_MAX_POINTS];
+    double m[CUT_MAX_POINTS], line[3][5];
 
     if (r->type->simplex) {
         monomials(dim, x, m);
@@ -120,70 +120,26 @@ static void project(const cut_rule *r, const double *x, double *l)
         }
         return;
     }
+    for (int k = 0; k < dim; k++)
+        lagrange(x[k], line[k]);
     for (int q = 0; q < r->n; q++)
-        l[q] = lagrange(gauss5, q % 5, x[0]) * lagrange(gauss5, q / 5 % 5, x[1]) *
-               (dim == 3 ? lagrange(gauss5, q / 25, x[2]) : 1);
-}
-
-/* Fine points: sub-cells with Gauss points in each. */
-static int place_fine(cut_rule *r, error *err)
-{
-    const fe_cell *c = r->type;
-    int dim = c->dim, n = dim == 2 ? SUBCELLS_2D : SUBCELLS_3D;
-    fe_rule cell;
-    int64_t boxes = dim == 2 ? (int64_t)n * n : (int64_t)n * n * n, at = 0;
-
-    TRY(fe_rule_cell(c, 5, &cell, err));
-    if (!c->simplex) {
-        r->n_fine = (int)(boxes * cell.n);
-        ARENA_NEW(&r->memory, r->fine, r->n_fine, err);
-        ARENA_NEW(&r->memory, r->fine_weight, r->n_fine, err);
-        for (int64_t b = 0; b < boxes; b++)
-            for (int q = 0; q < cell.n; q++, at++) {
-                int64_t i[3] = {b % n, b / n % n, b / ((int64_t)n * n)};
-
-                r->fine_weight[at] = cell.w[q] / (double)boxes;
-                for (int k = 0; k < dim; k++)
-                    r->fine[at][k] = -1 + (2.0 * (double)i[k] + 1 + cell.x[q][k]) / n;
-            }
-        return 0;
-    }
-    /* a simplex is a box collapsed (Duffy): Gauss points of the box, the Jacobian goes into the weight */
-    TRY(fe_rule_cell(fe_cell_of(dim == 2 ? PF_QUAD9 : PF_HEX27), 7, &cell, err));
-    r->n_fine = (int)(boxes * cell.n);
-    ARENA_NEW(&r->memory, r->fine, r->n_fine, err);
-    ARENA_NEW(&r->memory, r->fine_weight, r->n_fine, err);
-    for (int64_t b = 0; b < boxes; b++)
-        for (int q = 0; q < cell.n; q++, at++) {
-            int64_t i[3] = {b % n, b / n % n, b / ((int64_t)n * n)};
-            double u[3] = {0};
-
-            for (int k = 0; k < dim; k++)
-                u[k] = ((double)i[k] + 0.5 + 0.5 * cell.x[q][k]) / n;
-            r->fine[at][0] = u[0] * (1 - u[1]) * (1 - u[2]);
-            r->fine[at][1] = u[1] * (1 - u[2]);
-            r->fine[at][2] = u[2];
-            r->fine_weight[at] = cell.w[q] / (double)boxes / (dim == 2 ? 4 : 8) * (1 - u[1]) *
-                                 (dim == 3 ? (1 - u[2]) * (1 - u[2]) : 1);
-        }
-    return 0;
+        l[q] = line[0][q % 5] * line[1][q / 5 % 5] * (dim == 3 ? line[2][q / 25] : 1);
 }
 
 int cut_rule_create(cut_rule *r, const fe_cell *type, error *err)
 {
+    fe_rule rule;
+
     memset(r, 0, sizeof *r);
     r->type = type;
     TRY(place_points(r, err));
-    TRY(place_fine(r, err));
-    ARENA_NEW(&r->memory, r->fine_basis, (int64_t)r->n_fine * type->n_node, err);
-    ARENA_NEW(&r->memory, r->projection, (int64_t)r->n_fine * r->n, err);
-    for (int64_t s = 0; s < r->n_fine; s++) {
-        double ignored[FE_MAX_NODES][3];
+    TRY(fe_rule_cell(type, type->simplex ? 5 : 7, &rule, err));
+    for (int s = 0; s < rule.n; s++) {
+        double l[CUT_MAX_POINTS];
 
-        fe_basis(type, 2, r->fine[s], r->fine_basis + s * type->n_node, ignored);
-        project(r, r->fine[s], r->projection + s * r->n);
+        project(r, rule.x[s], l);
         for (int q = 0; q < r->n; q++)
-            r->whole[q] += r->fine_weight[s] * r->projection[s * r->n + q];
+            r->whole[q] += rule.w[s] * l[q];
     }
     return 0;
 }
@@ -194,36 +150,42 @@ void cut_rule_destroy(cut_rule *r)
     memset(r, 0, sizeof *r);
 }
 
-static void map(const cut_rule *r, const mesh *m, int32_t cell, int64_t s, double *x)
-{
-    const double *b = r->fine_basis + s * r->type->n_node;
-    const int32_t *node = m->cell + (int64_t)cell * r->type->n_node;
+/* Where the points of a cell go. */
+typedef struct projection {
+    const cut_rule *rule;
+    double *w;
+    int any;
+    void (*surface)(void *ctx, const double *xi, const double *x, const double *nds);
+    void *ctx;
+} projection;
 
-    memset(x, 0, 3 * sizeof *x);
-    for (int i = 0; i < r->type->n_node; i++)
-        for (int k = 0; k < m->dim; k++)
-            x[k] += b[i] * m->x[(int64_t)node[i] * m->dim + k];
+static void add_inside(void *ctx, const double *xi, double weight)
+{
+    projection *to = ctx;
+    double l[CUT_MAX_POINTS];
+
+    to->any |= weight > 0;
+    project(to->rule, xi, l);
+    for (int q = 0; q < to->rule->n; q++)
+        to->w[q] += weight * l[q];
 }
 
-int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, double *w)
+static void pass_surface(void *ctx, const double *xi, const double *x, const double *nds)
 {
-    double rotation[3][3];
-    int64_t inside = 0;
+    projection *to = ctx;
 
-    particle_rotation(p, rotation);
+    to->surface(to->ctx, xi, x, nds);
+}
+
+int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, double *w,
+             void (*surface)(void *ctx, const double *xi, const double *x, const double *nds), void *ctx)
+{
+    projection to = {.rule = r, .w = w, .surface = surface, .ctx = ctx};
+    int whole;
+
     memset(w, 0, (size_t)r->n * sizeof *w);
-    for (int64_t s = 0; s < r->n_fine; s++) {
-        const double *l = r->projection + s * r->n;
-        double x[3];
-
-        map(r, m, cell, s, x);
-        if (particle_level(p, (const double(*)[3])rotation, x) >= 0)
-            continue;
-        inside++;
-        for (int q = 0; q < r->n; q++)
-            w[q] += r->fine_weight[s] * l[q];
-    }
-    return inside == 0 ? 0 : inside < r->n_fine ? 1 : 2;
+    whole = implicit_cell(m, cell, p, &(implicit_sink){&to, add_inside, surface ? pass_surface : NULL});
+    return whole ? 2 : to.any;
 }
 
 /* Position relative to the body's centre and Jacobian determinant at interpolation point q. */

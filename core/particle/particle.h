@@ -28,6 +28,10 @@ typedef struct shape {
 int shape_measure(shape *s, error *err);
 /* Negative inside; not a distance in general. */
 double shape_level(const shape *s, const double *body_x);
+/* Its gradient: by formula, or by central differences. */
+void shape_slope(const shape *s, const double *body_x, double *g);
+/* Whether the surface has no edges and the level no kinks near it. */
+int shape_is_smooth(const shape *s);
 
 enum particle_motion { PARTICLE_FREE, PARTICLE_FIXED, PARTICLE_PRESCRIBED };
 
@@ -44,6 +48,8 @@ typedef struct particle {
 void particle_rotation(const particle *p, double r[3][3]);
 /* Level of the body at a point of space. */
 double particle_level(const particle *p, const double r[3][3], const double *x);
+/* Gradient of the level in space. */
+void particle_slope(const particle *p, const double r[3][3], const double *x, double *g);
 /* Largest extent of the body from its centre in direction n (unit vector). */
 double particle_support(const particle *p, const double r[3][3], const double *n);
 /* Turns by the rotation vector (rad); 2D: its last component. */
@@ -79,19 +85,27 @@ typedef struct cut_rule {
     double x[CUT_MAX_POINTS][3];
     double whole[CUT_MAX_POINTS]; /* reference weights of the whole cell */
     double *inverse;              /* simplices: inverse Vandermonde matrix, [n][n] */
-    int n_fine;                   /* points of the fine rule on a cell */
-    double (*fine)[3], *fine_weight;
-    double *fine_basis; /* second-order basis at the fine points, [n_fine][n_node] */
-    double *projection; /* L_q at the fine points, [n_fine][n] */
     arena memory;
 } cut_rule;
 
 int cut_rule_create(cut_rule *r, const fe_cell *type, error *err);
 void cut_rule_destroy(cut_rule *r);
 
+/* Receives points of the part of a cell inside a body (weights of the reference cell) and, unless NULL, of
+ * its surface (n ds, n out of the body). */
+typedef struct implicit_sink {
+    void *ctx;
+    void (*inside)(void *ctx, const double *xi, double weight);
+    void (*surface)(void *ctx, const double *xi, const double *x, const double *nds);
+} implicit_sink;
+
+/* Feeds the sink (implicit.c); 1 if the whole cell is inside. */
+int implicit_cell(const mesh *m, int32_t cell, const particle *p, const implicit_sink *sink);
+
 /* Weights w[rule.n] (reference measure) of the part of the cell inside the particle; 0 if there is
- * none, 2 if the whole cell is inside. */
-int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, double *w);
+ * none, 2 if the whole cell is inside, else 1.  surface: see implicit_sink; NULL: not needed. */
+int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, double *w,
+             void (*surface)(void *ctx, const double *xi, const double *x, const double *nds), void *ctx);
 
 /* Multiplies the weights of a body that lies inside the mesh by 1 + c0 + c.r + r.C.r so that volume,
  * centroid and second moments are exact.  n cells with weights, shift: of the body's image in each of them;

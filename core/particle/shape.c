@@ -44,6 +44,28 @@ double shape_level(const shape *s, const double *x)
     }
 }
 
+void shape_slope(const shape *s, const double *x, double *g)
+{
+    if (s->kind == SHAPE_ELLIPSOID) {
+        for (int k = 0; k < s->dim; k++)
+            g[k] = 2 * x[k] / (s->half[k] * s->half[k]);
+        return;
+    }
+    for (int k = 0; k < s->dim; k++) {
+        double to[3] = {x[0], x[1], s->dim == 3 ? x[2] : 0}, step = 1e-5 * s->thickness, high;
+
+        to[k] = x[k] + step;
+        high = shape_level(s, to);
+        to[k] = x[k] - step;
+        g[k] = (high - shape_level(s, to)) / (2 * step);
+    }
+}
+
+int shape_is_smooth(const shape *s)
+{
+    return s->kind == SHAPE_ELLIPSOID || s->kind == SHAPE_DISTANCE;
+}
+
 static int measure_formula(shape *s)
 {
     const double *h = s->half;
@@ -152,6 +174,22 @@ double particle_level(const particle *p, const double r[3][3], const double *x)
         for (int j = 0; j < p->shape.dim; j++)
             body[i] += r[j][i] * (x[j] - p->x[j]);
     return shape_level(&p->shape, body);
+}
+
+void particle_slope(const particle *p, const double r[3][3], const double *x, double *g)
+{
+    int dim = p->shape.dim;
+    double body[3] = {0}, own[3] = {0};
+
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++)
+            body[i] += r[j][i] * (x[j] - p->x[j]);
+    shape_slope(&p->shape, body, own);
+    for (int j = 0; j < dim; j++) {
+        g[j] = 0;
+        for (int i = 0; i < dim; i++)
+            g[j] += r[j][i] * own[i];
+    }
 }
 
 double particle_support(const particle *p, const double r[3][3], const double *n)

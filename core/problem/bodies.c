@@ -121,13 +121,13 @@ static int attach(problem *p, error *err)
         ARENA_NEW(&p->envelope_memory, p->shift, n + 1, err);
     }
     s->n_attached = n;
+    fluid_forget(p);
     TRY(problem_link(p, 2 * MARGIN * p->h_max, err));
     ARENA_NEW(&p->envelope_memory, p->weight, n * p->cut.n + 1, err);
     ARENA_NEW(&p->envelope_memory, p->covered, n + 1, err);
     ARENA_NEW(&p->envelope_memory, p->whole_inside, n + 1, err);
     ARENA_NEW(&p->envelope_memory, p->cut_weight, n * p->cut.n + 1, err);
     ARENA_NEW(&p->envelope_memory, p->cut_cell, n + 1, err);
-    ARENA_NEW(&p->envelope_memory, p->fluid_off, p->mesh.n_cell, err);
     p->n_covered = 0;
     for (int64_t d = 0; d < s->n_dof; d++) /* bit 1: restricted, and away from all bodies */
         s->fixed[d] = (uint8_t)((s->fixed[d] & 1) | (is_restricted(p, s->dof_field[d]) ? 2 : 0));
@@ -139,17 +139,23 @@ static int attach(problem *p, error *err)
                 for (int c = 0; c < s->field[f].n_comp; c++)
                     s->fixed[d + c] &= 1;
             }
-    TRY(space_constrain(s, err));
-    if (p->system.linear.solver) {
-        linear_stats stats = p->system.linear.stats;
-        double limit = p->system.linear.memory_limit;
-
-        linear_destroy(&p->system.linear);
-        TRY(linear_create(&p->system.linear, p->solver, s, p->n_thread, err));
-        p->system.linear.stats = stats;
-        p->system.linear.memory_limit = limit;
-    }
     p->n_attach++;
+    return 0;
+}
+
+/* Numbers the free unknowns and makes the pattern anew, and a linear solver for it. */
+static int renew_matrix(problem *p, error *err)
+{
+    linear_stats stats = p->system.linear.stats;
+    double limit = p->system.linear.memory_limit;
+
+    TRY(space_constrain(&p->space, err));
+    if (!p->system.linear.solver)
+        return 0;
+    linear_destroy(&p->system.linear);
+    TRY(linear_create(&p->system.linear, p->solver, &p->space, p->n_thread, err));
+    p->system.linear.stats = stats;
+    p->system.linear.memory_limit = limit;
     return 0;
 }
 
@@ -159,7 +165,7 @@ static int cut(problem *p, error *err)
     const space *s = &p->space;
     int64_t a = 0;
 
-    p->n_covered = 0;
+    p->n_covered = p->surface.n = p->surface.n_last = 0;
     arena_free(&p->step_memory);
     for (int k = 0; k < p->n_particle; k++) {
         const particle *q = &p->particle[k];
@@ -174,8 +180,11 @@ static int cut(problem *p, error *err)
 
             for (int i = 0; i < 3; i++)
                 here.x[i] += p->shift[a][i];
-            if ((inside = cut_cell(&p->cut, &p->mesh, s->attached_cell[a], &here,
-                                   p->weight + p->n_covered * p->cut.n))) {
+            p->surface.now = (int32_t)a;
+            inside = cut_cell(&p->cut, &p->mesh, s->attached_cell[a], &here, p->weight + p->n_covered * p->cut.n,
+                              p->has_surface ? fluid_add_surface : NULL, p);
+            fluid_end_surface(p);
+            if (inside) {
                 p->whole_inside[p->n_covered] = inside == 2;
                 p->covered[p->n_covered++] = (int32_t)a;
             }
@@ -204,36 +213,6 @@ static int cut(problem *p, error *err)
             fraction = 0;
         TRY(cut_correct(&p->cut, &p->mesh, q, cell, (const double(*)[3])shift, p->weight + first * p->cut.n, n,
                         fraction, err));
-    }
-    return 0;
-}
-
-/* What the bodies leave of each cell that a surface cuts: the whole less the part inside. */
-static int outside(problem *p, error *err)
-{
-    const space *s = &p->space;
-    int n = p->cut.n;
-    int32_t *at; /* [n_cell] index + 1 among the cut cells; 0: not yet */
-
-    ARENA_NEW(&p->step_memory, at, p->mesh.n_cell, err);
-    memset(p->fluid_off, 0, (size_t)p->mesh.n_cell);
-    p->n_cut = 0;
-    for (int64_t k = 0; k < p->n_covered; k++)
-        if (p->whole_inside[k])
-            p->fluid_off[s->attached_cell[p->covered[k]]] = 2;
-    for (int64_t k = 0; k < p->n_covered; k++) {
-        int32_t e = s->attached_cell[p->covered[k]];
-
-        if (p->fluid_off[e] == 2)
-            continue;
-        if (!at[e]) {
-            p->fluid_off[e] = 1;
-            p->cut_cell[p->n_cut] = e;
-            memcpy(p->cut_weight + p->n_cut * n, p->cut.whole, (size_t)n * sizeof *p->cut_weight);
-            at[e] = (int32_t)++p->n_cut;
-        }
-        for (int q = 0; q < n; q++)
-            p->cut_weight[(at[e] - 1) * n + q] -= p->weight[k * n + q];
     }
     return 0;
 }
@@ -283,7 +262,7 @@ static void activate(problem *p, double *x)
 int problem_cut(problem *p, double *x, error *err)
 {
     double start = solve_seconds();
-    int again = p->space.n_attached == 0, moved = 0;
+    int again = p->space.n_attached == 0, moved = 0, fresh = 0;
 
     if (p->n_particle == 0)
         return 0;
@@ -297,11 +276,19 @@ int problem_cut(problem *p, double *x, error *err)
     }
     if (again)
         TRY(attach(p, err));
-    if (again || moved || p->n_covered == 0) /* bodies that stand are cut as they were */
+    if (again || moved || p->n_covered == 0) { /* bodies that stand are cut as they were */
         TRY(cut(p, err));
-    if (again || moved || p->n_cut == 0)
-        TRY(outside(p, err));
+        if (p->surface.failed)
+            return error_memory(err, "pieces of surface", 0);
+        TRY(fluid_weights(p, err));
+        if (p->has_ties)
+            TRY(fluid_ties(p, &fresh, err));
+    }
+    if (again || fresh)
+        TRY(renew_matrix(p, err));
     activate(p, x);
+    if (p->any_fluid_only)
+        fluid_activate(p, x);
     problem_find_pairs(p);
     if (p->system.linear.solver && moved)
         linear_forget(&p->system.linear); /* the old factors know the old cells */
@@ -318,7 +305,17 @@ int problem_cut(problem *p, double *x, error *err)
                                                .solid = p->covered,
                                                .cut = p->cut_cell,
                                                .solid_weight = p->weight,
-                                               .cut_weight = p->cut_weight},
+                                               .cut_weight = p->cut_weight,
+                                               .n_surface = p->surface.n,
+                                               .surface = p->surface.attached,
+                                               .surface_ref = (const double(*)[3])p->surface.ref,
+                                               .surface_normal = (const double(*)[3])p->surface.normal,
+                                               .surface_weight = p->surface.weight,
+                                               .n_tie = p->tie.n,
+                                               .tie = p->tie.group,
+                                               .tie_cell = p->tie.cell,
+                                               .tie_weight = p->tie.weight,
+                                               .tie_ref = (const double(*)[3])p->tie.ref},
                                 err));
     p->geometry_seconds += solve_seconds() - start;
     return 0;
@@ -373,6 +370,7 @@ int problem_make_particles(problem *p, error *err)
         fe_basis(p->mesh.type, 2, p->cut.x[q], p->cut_basis + q * p->mesh.type->n_node, ignored);
     }
     list_images(p);
+    TRY(fluid_create(p, err));
     TRY(cell_grid_create(&p->grid, &p->mesh, err));
     ARENA_NEW(&p->memory, p->envelope, 3 * p->n_particle, err);
     for (int i = 0; i < 2; i++)
@@ -406,5 +404,7 @@ int problem_move(void *problem_, enum move what, int slot, double dt, const doub
         particle_turn(q, turn);
         wrap(p, q);
     }
+    if (what == MOVE_PLACE)
+        problem_fill(p, u1);
     return what == MOVE_PREDICT ? problem_cut(p, u1, err) : 0;
 }

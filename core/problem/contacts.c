@@ -43,8 +43,7 @@ static double separation(const problem *p, const particle *a, const particle *b,
 
 int problem_link(problem *p, double drift, error *err)
 {
-    space *s = &p->space;
-    int64_t n = 0;
+    const int32_t first = (int32_t)p->mesh.n_node + 1;
     int has_pairs = 0;
 
     for (int i = 0; i < p->n_use; i++)
@@ -52,35 +51,19 @@ int problem_link(problem *p, double drift, error *err)
     for (int k = 0; k < p->n_particle && p->pair_range == 0; k++)
         p->pair_range = fmax(p->pair_range, 2 * p->particle[k].shape.radius);
     p->walls = walls_of(p);
-    s->n_extra = p->n_link = 0;
-    for (int pass = 0; has_pairs && pass < 2; pass++) {
-        n = p->n_particle; /* the links to walls come first */
-        for (int i = 0; i < p->n_particle; i++)
-            for (int j = 0; j < i; j++) {
-                const particle *a = &p->particle[i], *b = &p->particle[j];
-                double ignored[3];
+    p->space.n_extra = p->n_link = 0;
+    for (int i = 0; has_pairs && i < p->n_particle; i++)
+        TRY(fluid_add_group(p, (int32_t[2]){first + i, -1}, 2, err));
+    for (int i = 0; has_pairs && i < p->n_particle; i++)
+        for (int j = 0; j < i; j++) {
+            const particle *a = &p->particle[i], *b = &p->particle[j];
+            double ignored[3];
 
-                if (separation(p, a, b, ignored) - a->shape.radius - b->shape.radius > p->pair_range + drift)
-                    continue;
-                if (pass) {
-                    s->extra_carrier[2 * n] = (int32_t)(p->mesh.n_node + 1 + i);
-                    s->extra_carrier[2 * n + 1] = (int32_t)(p->mesh.n_node + 1 + j);
-                }
-                n++;
-            }
-        if (pass)
-            break;
-        ARENA_NEW(&p->envelope_memory, s->extra_first, n + 1, err);
-        ARENA_NEW(&p->envelope_memory, s->extra_carrier, 2 * n, err);
-        ARENA_NEW(&p->envelope_memory, p->pair, n + 2 * p->dim * p->n_particle, err);
-        for (int i = 0; i < p->n_particle; i++) {
-            s->extra_carrier[2 * i] = (int32_t)(p->mesh.n_node + 1 + i);
-            s->extra_carrier[2 * i + 1] = -1;
+            if (separation(p, a, b, ignored) - a->shape.radius - b->shape.radius <= p->pair_range + drift)
+                TRY(fluid_add_group(p, (int32_t[2]){first + i, first + j}, 2, err));
         }
-        for (int64_t e = 0; e <= n; e++)
-            s->extra_first[e] = 2 * e;
-    }
-    s->n_extra = p->n_link = n;
+    p->n_link = p->space.n_extra;
+    ARENA_NEW(&p->envelope_memory, p->pair, p->n_link + 2 * p->dim * p->n_particle, err);
     return 0;
 }
 

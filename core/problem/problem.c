@@ -127,11 +127,13 @@ int problem_initial(problem *p, error *err)
         if (w >= 0)
             TRY(value_at(&p->particle[k].spin, (double[3]){0}, p->time.start, p->x + w, err));
     }
+    problem_fill(p, p->x);
     return problem_dirichlet(p, p->time.start, p->x, err);
 }
 
 void problem_destroy(problem *p)
 {
+    fluid_destroy(p);
     cut_rule_destroy(&p->cut);
     cell_grid_destroy(&p->grid);
     system_destroy(&p->system);

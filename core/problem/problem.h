@@ -67,6 +67,26 @@ typedef struct problem_output {
     const case_block *block;
 } problem_output;
 
+/* Pieces of surface in cells, SURFACE_POINTS points each (see body_points). */
+typedef struct surface_list {
+    int64_t n, room;
+    int n_last, failed; /* points of the last, unfinished piece */
+    int32_t now;        /* attached pair that is being cut      */
+    int32_t *attached;
+    double (*ref)[3], (*normal)[3], *weight;
+} surface_list;
+
+/* Bad cells tied to roots now, and all ties that the pattern of the matrix has met. */
+typedef struct tie_list {
+    int64_t n, room, n_rootless;
+    int32_t *cell;
+    int64_t *group;
+    double *weight, (*ref)[3];
+    int64_t n_known, known_room;
+    int32_t *first, *root; /* [n_cell] first tie of a bad cell or -1; root of each tie */
+    int32_t *next;         /* next tie of the same bad cell                            */
+} tie_list;
+
 typedef struct problem {
     case_file *c;
     registry *r;
@@ -97,11 +117,21 @@ typedef struct problem {
     int32_t *covered;      /* attached pairs that a body covers                      */
     uint8_t *whole_inside; /* of each of them: the body covers all of the cell             */
     int64_t n_covered;
-    uint8_t *fluid_off; /* [n_cell] 1: a body covers a part of the cell; 2: all of it */
+    uint8_t *fluid_off; /* [n_cell] 1: a body covers a part of the cell; 2: all of it; 4: all of it, but a
+                         * piece of its surface lies there and the cell takes part    */
     int64_t n_cut;
-    int32_t *cut_cell;  /* cells that a surface cuts                                    */
-    double *cut_weight; /* of their part outside of all bodies                          */
-    near_pair *pair;    /* bodies near something                                  */
+    int32_t *cut_cell, *cut_of; /* cells that a surface cuts; [n_cell] their numbers           */
+    double *cut_weight;         /* of their part outside of all bodies                         */
+    int32_t *covered_by;        /* [n_cell] attached pair of one of the bodies in such a cell  */
+    int64_t n_off, off_room;
+    int32_t *off_cell; /* cells with fluid_off                                        */
+    int has_surface, has_ties, any_fluid_only;
+    int fluid_only[SPACE_MAX_FIELDS]; /* fields with equations in the fluid only              */
+    surface_list surface;
+    tie_list tie;
+    int32_t *near_cell;    /* room for a search                                       */
+    int64_t extra_room[2]; /* of the lists of extra groups in the space               */
+    near_pair *pair;       /* bodies near something                                  */
     int64_t n_pair, n_link;
     unsigned walls;          /* bit k: side k of the box is a wall */
     double pair_range;       /* gap up to which pairs are looked for                   */
@@ -142,12 +172,29 @@ int problem_initial(problem *p, error *err);
 /* Attaches cells, cuts them, finds the active set for the places that the bodies have now; zeroes in x
  * what is off. */
 int problem_cut(problem *p, double *x, error *err);
+/* Gives velocity unknowns without fluid the motion of the body that they lie in (fluid_part.c). */
+void problem_fill(problem *p, double *x);
 /* The stepper's hook (solve.h). */
 int problem_move(void *problem, enum move what, int slot, double dt, const double *u0, double *u1, error *err);
 /* Unknowns of a particle: first dof of the field of this shape (PF_VECTOR, PF_SPIN), or -1. */
 int64_t problem_particle_dof(const problem *p, int k, int shape);
 
 /* --- between the files of this folder --- */
+
+/* The part left to the fluid (fluid_part.c): room for it; weights of cut cells; surface points as cells are cut;
+ * ties of bad cells (*fresh: the pattern must grow); idle unknowns; the motion of the bodies in them. */
+int fluid_create(problem *p, error *err);
+int fluid_weights(problem *p, error *err);
+void fluid_add_surface(void *problem, const double *xi, const double *x, const double *nds);
+void fluid_end_surface(problem *p);
+int fluid_ties(problem *p, int *fresh, error *err);
+void fluid_activate(problem *p, double *x);
+double fluid_fraction(const problem *p, int32_t cell);
+/* Appends an extra group of n carriers to the space. */
+int fluid_add_group(problem *p, const int32_t *carrier, int n, error *err);
+void fluid_forget(problem *p); /* before cells are attached anew */
+void fluid_destroy(problem *p);
+
 int problem_read_mesh(problem *p, error *err); /* reads mesh{} and finds the dimension; no mesh yet */
 int problem_make_mesh(problem *p, error *err);
 int problem_read_terms(problem *p, error *err);

@@ -146,6 +146,7 @@ static int steady(run *r, error *err)
     warn_singular(r, &report);
     say(r, "  converged in %d iterations, observed order %.1f, |r| / |r_before|^2 = %.2g", report.iterations,
         report.order, report.ratio);
+    problem_fill(p, p->x);
     gauge_zero_mean(&p->system, p->x);
     warn_defect(r);
     TRY(newton_residual(&p->system, &(newton_time){0}, p->x, r->residual, err));

@@ -56,6 +56,9 @@ static int has_constant(const newton_system *s, int f)
         int row_is_f = sp->dof_field[sp->dof_of[i]] == f;
         double sum = 0, size = 0;
 
+        if (sp->idle[sp->dof_of[i]])
+            continue;
+
         for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++) {
             double v = l->value[k];
 
@@ -113,16 +116,16 @@ void gauge_project(newton_system *s, double *residual)
     const space *sp = s->space;
 
     for (int f = 0; f < sp->n_field; f++) {
-        double sum = 0, size = 0;
+        double sum = 0, volume = 0;
 
         if (!s->gauge.free[f])
             continue;
         for (int64_t d = 0; d < sp->n_dof; d++)
-            if (sp->dof_field[d] == f)
-                sum += residual[d], size += fabs(residual[d]);
+            if (sp->dof_field[d] == f && !sp->idle[d])
+                sum += residual[d], volume += s->gauge.weight[f][d];
         for (int64_t d = 0; d < sp->n_dof; d++)
-            if (sp->dof_field[d] == f)
-                residual[d] -= sum / s->gauge.volume * s->gauge.weight[f][d];
+            if (sp->dof_field[d] == f && !sp->idle[d])
+                residual[d] -= sum / volume * s->gauge.weight[f][d];
         s->gauge.defect[f] = sum;
     }
 }
@@ -137,7 +140,7 @@ void gauge_pin(newton_system *s)
 
         if (!s->gauge.free[f])
             continue;
-        while (sp->dof_field[sp->dof_of[pin]] != f)
+        while (sp->dof_field[sp->dof_of[pin]] != f || sp->idle[sp->dof_of[pin]])
             pin++;
         for (int64_t k = sp->row[pin]; k < sp->row[pin + 1]; k++) {
             int64_t j = sp->col[k];
@@ -156,16 +159,17 @@ void gauge_zero_mean(const newton_system *s, double *x)
     const space *sp = s->space;
 
     for (int f = 0; f < sp->n_field; f++) {
-        double mean = 0;
+        double mean = 0, volume = 0;
 
         if (!s->gauge.free[f])
             continue;
         for (int64_t d = 0; d < sp->n_dof; d++)
-            if (sp->dof_field[d] == f)
+            if (sp->dof_field[d] == f && !sp->idle[d]) {
                 mean += s->gauge.weight[f][d] * x[d];
-        mean /= s->gauge.volume;
+                volume += s->gauge.weight[f][d];
+            }
         for (int64_t d = 0; d < sp->n_dof; d++)
-            if (sp->dof_field[d] == f)
-                x[d] -= mean;
+            if (sp->dof_field[d] == f && !sp->idle[d])
+                x[d] -= mean / volume;
     }
 }

@@ -27,6 +27,8 @@ int space_add_field(space *s, int dim, const pf_field *f, const char *plugin, er
                 "one of them needs another name for its field",
                 f->name, g->declared_by, g->shape == PF_VECTOR ? "vector" : "scalar", g->order, plugin,
                 f->shape == PF_VECTOR ? "vector" : "scalar", order);
+        if (!g->constrains)
+            g->constrains = f->constrains;
         return 0;
     }
     if (s->n_field == SPACE_MAX_FIELDS)

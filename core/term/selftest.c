@@ -97,6 +97,8 @@ static void place_params(bench *k)
 
 static int bench_create(bench *k, selftest *s, const term_plugin *p, const pf_term *t, int dim, error *err)
 {
+    int on_body = t->where == PF_SOLID || t->where == PF_SURFACE || t->where == PF_PAIR;
+
     memset(k, 0, sizeof *k);
     k->s = s;
     k->p = p;
@@ -145,15 +147,16 @@ static int bench_create(bench *k, selftest *s, const term_plugin *p, const pf_te
                       .dt = 0.1,
                       .shift = 15,
                       .x = k->x,
-                      .normal = t->where == PF_FACET || t->where == PF_PAIR ? k->normal : NULL,
+                      .normal =
+                          t->where == PF_FACET || t->where == PF_SURFACE || t->where == PF_PAIR ? k->normal : NULL,
                       .h = k->h,
-                      .arm = t->where == PF_SOLID ? k->arm : NULL,
-                      .density = t->where == PF_SOLID || t->where == PF_PAIR ? k->density : NULL,
+                      .arm = t->where == PF_SOLID || t->where == PF_SURFACE ? k->arm : NULL,
+                      .density = on_body ? k->density : NULL,
                       .gap = t->where == PF_PAIR ? k->h : NULL,
                       .size_of = t->where == PF_PAIR ? k->density : NULL,
                       .other_size = t->where == PF_PAIR ? k->density : NULL,
                       .other_density = t->where == PF_PAIR ? k->density : NULL,
-                      .id = t->where == PF_SOLID || t->where == PF_PAIR ? k->id : NULL,
+                      .id = on_body ? k->id : NULL,
                       .params = k->params,
                       .scratch = k->b.scratch,
                       .kernel = &k->report};

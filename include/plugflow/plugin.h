@@ -97,7 +97,8 @@ typedef struct pf_field {
     uint32_t support;          /* enum pf_support                                    */
     const char *reaction;      /* what its boundary reaction is: "force", "heat"; or NULL */
     const char *reaction_unit; /* "N"                                                     */
-    const char *constrains;    /* PF_IN_PARTICLES: the field it holds; off where that one is prescribed (1.1) */
+    const char *constrains;    /* PF_IN_PARTICLES: the field it holds; off where that one is prescribed.
+                                * PF_ON_PARTICLE: the field that moves with    the body inside of it (1.1) */
 } pf_field;
 
 enum pf_type {
@@ -131,8 +132,8 @@ typedef struct pf_batch {
     const void *params;             /* the term's own struct                              */
     void *scratch;                  /* scratch_bytes, private to this thread              */
     void *kernel;                   /* the kernel's own; pass the batch on to host->fail  */
-    const double *density;          /* [ld] of the particle, PF_SOLID (1.1)                    */
-    const int32_t *id;              /* [ld] of the particle, from 0, PF_SOLID (1.1)            */
+    const double *density;          /* [ld] of the particle, PF_SOLID and PF_SURFACE (1.1)     */
+    const int32_t *id;              /* [ld] of the particle, from 0 (1.1)                      */
     /* PF_PAIR (1.1): one point a pair, in the middle of the gap, m; normal points from the other body, or
      * the wall, to the first.  Sizes: across, m; of a wall infinite, and its density 0. */
     const double *gap, *size_of, *other_size, *other_density;

@@ -80,3 +80,16 @@ static int F(displaced)(const pf_batch *b, const NUM *const *in, NUM *const *out
     }
     return PF_OK;
 }
+
+/* rho_f g . V: the weight of the fluid displaced, all that is left of it if the fluid inside is none */
+static int F(buoyancy)(const pf_batch *b, const NUM *const *in, NUM *const *out)
+{
+    const struct rigid_body *f = b->params;
+    NUM *restrict V = out[0];
+
+    (void)in;
+    for (uint32_t a = 0; a < b->dim; a++)
+        PF_LANES_OF (b, i)
+            V[a * LD + i] = f->density * f->gravity[a];
+    return PF_OK;
+}

@@ -77,7 +77,9 @@ INTEGRATOR(displaced,
            "r))\\cdot\\xi",
            all, 3, V_xi, 2, PF_FLUID_FORCE);
 
-static const pf_term *const terms[] = {&translation, &rotation, &displaced};
+INTEGRATOR(buoyancy, "\\rho_fg\\cdot V", NULL, 0, V, 1, PF_LINEAR | PF_OPTIONAL | PF_FLUID_FORCE);
+
+static const pf_term *const terms[] = {&translation, &rotation, &displaced, &buoyancy};
 
 static const pf_plugin rigid_body = {
     .size = sizeof(pf_plugin),
@@ -91,7 +93,7 @@ static const pf_plugin rigid_body = {
     .license = "GPL-3.0-or-later",
     .doc = "translation and rotation of rigid bodies",
     .term = terms,
-    .n_term = 3,
+    .n_term = 4,
     .field = fields,
     .n_field = 2,
     .field_size = sizeof(pf_field),

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * No slip on the surface of bodies that cut through cells (numerics 5).  n points out of the fluid, r is the
+ * arm from the centre of the body, w = u - U - omega x r the slip; z = v - V - xi x r is what the test
+ * functions have of it, so that what the fluid gives the body takes, force and torque.  The q rows have the
+ * sign of the printed continuity, + psi div u. */
+
+/* w = u - U - omega x r at lane i */
+static inline void F(slip)(const pf_batch *b, const NUM *u, const NUM *U, const NUM *omega, uint32_t i, NUM *w)
+{
+    const double *r = b->arm;
+
+    if (b->dim == 2) {
+        w[0] = u[i] - U[i] + omega[i] * r[LD + i];
+        w[1] = u[LD + i] - U[LD + i] - omega[i] * r[i];
+        return;
+    }
+    for (uint32_t a = 0; a < 3; a++) {
+        const uint32_t p = (a + 1) % 3, q = (a + 2) % 3;
+
+        w[a] =
+            u[a * LD + i] - U[a * LD + i] - omega[p * LD + i] * r[q * LD + i] + omega[q * LD + i] * r[p * LD + i];
+    }
+}
+
+/* -(2 mu D(u) n - p n) . z  +  2 mu D(v) n . w  -  q n . w  +  gamma mu/h w . z */
+static int F(nitsche)(const pf_batch *b, const NUM *const *in, NUM *const *out)
+{
+    const struct surface *s = b->params;
+    const NUM *restrict grad_u = in[1], *restrict p = in[2];
+    const double *restrict n = b->normal, *restrict r = b->arm, mu = s->viscosity;
+    const uint32_t dim = b->dim;
+    NUM *restrict v = out[0], *restrict grad_v = out[1], *restrict q = out[2], *restrict V = out[3],
+                  *restrict xi = out[4];
+
+    PF_LANES_OF (b, i) {
+        NUM w[3], z[3] = {0};
+
+        F(slip)(b, in[0], in[3], in[4], i, w);
+        q[i] = 0;
+        for (uint32_t a = 0; a < dim; a++) {
+            NUM t = -p[i] * n[a * LD + i]; /* traction 2 mu D(u) n - p n */
+
+            for (uint32_t k = 0; k < dim; k++) {
+                t += mu * (grad_u[(a * dim + k) * LD + i] + grad_u[(k * dim + a) * LD + i]) * n[k * LD + i];
+                grad_v[(a * dim + k) * LD + i] = mu * (w[a] * n[k * LD + i] + w[k] * n[a * LD + i]);
+            }
+            z[a] = s->gamma * mu / b->h[i] * w[a] - t;
+            v[a * LD + i] = z[a];
+            V[a * LD + i] = -z[a];
+            q[i] -= n[a * LD + i] * w[a];
+        }
+        if (dim == 2)
+            xi[i] = r[LD + i] * z[0] - r[i] * z[1];
+        for (uint32_t a = 0; dim == 3 && a < 3; a++) {
+            const uint32_t j = (a + 1) % 3, k = (a + 2) % 3;
+
+            xi[a * LD + i] = r[k * LD + i] * z[j] - r[j * LD + i] * z[k];
+        }
+    }
+    return PF_OK;
+}
+
+/* (g_u mu/h^2 + g_t rho c0/dt) du . dv  +  g_p/mu dp dq;  d: what differs from the polynomial of the root */
+static int F(extension)(const pf_batch *b, const NUM *const *in, NUM *const *out)
+{
+    const struct extension *e = b->params;
+    const NUM *restrict du = in[0], *restrict dp = in[1];
+    NUM *restrict dv = out[0], *restrict dq = out[1];
+
+    for (uint32_t a = 0; a < b->dim; a++)
+        PF_LANES_OF (b, i) {
+            const double c = e->g_u * e->viscosity / (b->h[i] * b->h[i]) + e->g_t * e->density * b->shift;
+
+            dv[a * LD + i] = c * du[a * LD + i];
+        }
+    PF_LANES_OF (b, i)
+        dq[i] = e->g_p / e->viscosity * dp[i];
+    return PF_OK;
+}
