@@ -6,6 +6,7 @@ local n = param("n", 12, "cells per cm")
 local dt = param("dt", 0.01, "time step, s")
 local stop = param("stop", 0.9, "end, s")
 local rho = param("density", 0.75, "density of the disk, g/cm^3")
+local formulation = param("formulation", "conservative", "conservative or sharp")
 local d, mu = 0.25, 0.1
 
 mesh  { box = {{0, 0}, {2, 6}}, cells = {2 * n, 6 * n} }
@@ -13,7 +14,7 @@ fluid { density = 1, viscosity = mu, gravity = {0, -981} }
 
 term "continuity" {}
 term "momentum" {}
-particulate "conservative"
+particulate(formulation)
 term "contact.repulsion" { range = 0.06 }
 
 boundary "*" { u = {0, 0} }

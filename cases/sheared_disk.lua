@@ -4,13 +4,14 @@ case "Disk in shear"
 
 local n = param("n", 28, "cells in each direction; D/h = 0.4 n")
 local x0, y0 = param("x0", 0.013, "centre"), param("y0", 0.0091, "centre")
+local formulation = param("formulation", "conservative", "conservative or sharp")
 
 mesh  { box = {{-0.5, -0.5}, {0.5, 0.5}}, cells = {n, n} }
 fluid { density = 1, viscosity = 1 }
 
 term "continuity" {}
 term "momentum" { without = {"convection"} }
-particulate "conservative"
+particulate(formulation)
 
 local function shear(x, y) return y, 0 end
 boundary "*" { u = shear }

@@ -5,6 +5,7 @@ case "Drafting, kissing, tumbling"
 local n = param("n", 16, "cells per cm")
 local dt = param("dt", 0.005, "time step, s")
 local stop = param("stop", 1.0, "end, s")
+local formulation = param("formulation", "conservative", "conservative or sharp")
 local d = 0.25
 
 mesh  { box = {{0, 0}, {2, 6}}, cells = {2 * n, 6 * n} }
@@ -12,7 +13,7 @@ fluid { density = 1, viscosity = 0.1, gravity = {0, -981} }
 
 term "continuity" {}
 term "momentum" {}
-particulate "conservative"
+particulate(formulation)
 term "contact.repulsion" { range = 0.06 }
 
 boundary "*" { u = {0, 0} }

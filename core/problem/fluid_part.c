@@ -77,6 +77,18 @@ double fluid_fraction(const problem *p, int32_t cell)
     return sum / p->mesh.type->measure;
 }
 
+const fe_rule *problem_points(const problem *p, int field, int64_t cell, const fe_rule *whole, fe_rule *own)
+{
+    if (p->n_particle == 0 || !p->fluid_only[field] || !p->fluid_off[cell])
+        return whole;
+    own->n = p->fluid_off[cell] == 1 ? p->cut.n : 0;
+    for (int q = 0; q < own->n; q++) {
+        memcpy(own->x[q], p->cut.x[q], sizeof own->x[q]);
+        own->w[q] = p->cut_weight[p->cut_of[cell] * p->cut.n + q];
+    }
+    return own;
+}
+
 /* --- pieces of surface --- */
 
 void fluid_add_surface(void *problem_, const double *xi, const double *x, const double *nds)
@@ -381,6 +393,22 @@ void fluid_activate(problem *p, double *x)
                 }
 }
 
+void problem_motion(const problem *p, const double *x, int k, const double *at, double *v)
+{
+    int64_t u = problem_particle_dof(p, k, PF_VECTOR), w = problem_particle_dof(p, k, PF_SPIN);
+    double r[3] = {0}, spin[3] = {0};
+
+    for (int b = 0; b < p->dim; b++)
+        r[b] = at[b] - p->particle[k].x[b];
+    for (int b = 0; w >= 0 && b < (p->dim == 2 ? 1 : 3); b++)
+        spin[p->dim == 2 ? 2 : b] = x[w + b];
+    for (int b = 0; b < p->dim; b++) {
+        const int i = (b + 1) % 3, j = (b + 2) % 3;
+
+        v[b] = x[u + b] + spin[i] * r[j] - spin[j] * r[i];
+    }
+}
+
 void problem_fill(problem *p, double *x)
 {
     space *s = &p->space;
@@ -391,32 +419,21 @@ void problem_fill(problem *p, double *x)
                     ? space_find_field(s, s->field[g].constrains)
                     : -1;
 
-        for (int64_t k = 0; f >= 0 && p->fluid_only[f] && k < p->n_covered; k++) {
-            int64_t a = p->covered[k];
-            int body = s->attached_particle[a];
-            const particle *q = &p->particle[body];
-            const double *u = x + problem_particle_dof(p, body, PF_VECTOR);
-            int64_t w = problem_particle_dof(p, body, PF_SPIN);
-
-            for (int i = 0; i < c->n_node; i++) {
+        for (int64_t k = 0; f >= 0 && p->fluid_only[f] && k < p->n_covered; k++)
+            for (int i = 0, a = p->covered[k]; i < c->n_node; i++) {
                 int32_t node = p->mesh.cell[(int64_t)s->attached_cell[a] * c->n_node + i];
-                double r[3] = {0}, v[3], spin[3] = {0};
                 int64_t d = s->first[f][node];
+                double at[3] = {0}, v[3];
 
                 if (!s->idle[d])
                     continue;
                 for (int b = 0; b < p->dim; b++)
-                    r[b] = p->mesh.x[(int64_t)node * p->dim + b] - q->x[b] - p->shift[a][b];
-                for (int b = 0; w >= 0 && b < (p->dim == 2 ? 1 : 3); b++)
-                    spin[p->dim == 2 ? 2 : b] = x[w + b];
-                v[0] = spin[1] * r[2] - spin[2] * r[1];
-                v[1] = spin[2] * r[0] - spin[0] * r[2];
-                v[2] = spin[0] * r[1] - spin[1] * r[0];
+                    at[b] = p->mesh.x[(int64_t)node * p->dim + b] - p->shift[a][b];
+                problem_motion(p, x, s->attached_particle[a], at, v);
                 for (int b = 0; b < p->dim; b++)
                     if (!s->fixed[d + b])
-                        x[d + b] = u[b] + v[b];
+                        x[d + b] = v[b];
             }
-        }
     }
 }
 

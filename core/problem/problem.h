@@ -172,8 +172,13 @@ int problem_initial(problem *p, error *err);
 /* Attaches cells, cuts them, finds the active set for the places that the bodies have now; zeroes in x
  * what is off. */
 int problem_cut(problem *p, double *x, error *err);
+/* Velocity of body k at a place, with unknowns x. */
+void problem_motion(const problem *p, const double *x, int k, const double *at, double *v);
 /* Gives velocity unknowns without fluid the motion of the body that they lie in (fluid_part.c). */
 void problem_fill(problem *p, double *x);
+/* Points of the part of a cell where a field has a meaning: the whole cell, or what is outside of the bodies for a
+ * field of the fluid only; returns `whole`, or `own` filled. */
+const fe_rule *problem_points(const problem *p, int field, int64_t cell, const fe_rule *whole, fe_rule *own);
 /* The stepper's hook (solve.h). */
 int problem_move(void *problem, enum move what, int slot, double dt, const double *u0, double *u1, error *err);
 /* Unknowns of a particle: first dof of the field of this shape (PF_VECTOR, PF_SPIN), or -1. */

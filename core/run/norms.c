@@ -71,15 +71,17 @@ int norms_of_error(const problem *p, int f, double t, double *l2, double *h1, do
     const mesh *m = &p->mesh;
     int n = p->space.field[f].n_comp, dim = p->dim;
     double sum = 0, grad = 0, size = 0, mean = 0, mean_exact = 0, volume = 0;
-    fe_rule rule;
+    fe_rule rule, own;
 
     TRY(fe_rule_cell(m->type, m->type->simplex ? 5 : 7, &rule, err));
-    for (int64_t e = 0; e < m->n_cell; e++)
-        for (int q = 0; q < rule.n; q++) {
+    for (int64_t e = 0; e < m->n_cell; e++) {
+        const fe_rule *part = problem_points(p, f, e, &rule, &own);
+
+        for (int q = 0; q < part->n; q++) {
             point_data d;
             double u[VALUE_MAX], g[VALUE_MAX * 3];
 
-            at_point(p, f, e, &rule, q, &d);
+            at_point(p, f, e, part, q, &d);
             TRY(value_at(&p->exact[f], d.x, t, u, err));
             TRY(exact_gradient(p, f, d.x, t, 1e-3 * d.h, g, err));
             volume += d.w;
@@ -93,12 +95,65 @@ int norms_of_error(const problem *p, int f, double t, double *l2, double *h1, do
                             (d.gradient[k * dim + a] - g[k * dim + a]);
             }
         }
+    }
     if (p->system.gauge.free[f]) {
         sum -= mean * mean / volume;
         size -= mean_exact * mean_exact / volume;
     }
-    *l2 = sqrt(fmax(sum, 0));
+    *l2 = sqrt(fmax(sum, 0)); /* weights of cut cells have any sign */
     *h1 = sqrt(grad);
     *exact = sqrt(fmax(size, 0));
+    return 0;
+}
+
+/* Adds what the bodies that move a field contribute inside of them. */
+static void add_bodies(const problem *p, int f, double *sum, double *volume)
+{
+    const space *s = &p->space;
+
+    for (int g = 0; g < s->n_field; g++)
+        if (s->field[g].support == PF_ON_PARTICLE && s->field[g].shape == PF_VECTOR && s->field[g].constrains &&
+            space_find_field(s, s->field[g].constrains) == f && p->fluid_only[f])
+            for (int64_t k = 0; k < p->n_covered; k++) {
+                int64_t a = p->covered[k];
+                int body = s->attached_particle[a];
+                for (int q = 0; q < p->cut.n; q++) {
+                    double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], x[3], j[3][3], v[3], w;
+
+                    fe_basis(p->mesh.type, 2, p->cut.x[q], n, dn);
+                    w = p->weight[k * p->cut.n + q] *
+                        mesh_map(&p->mesh, s->attached_cell[a], n, (const double(*)[3])dn, x, j);
+                    for (int i = 0; i < p->dim; i++)
+                        x[i] -= p->shift[a][i];
+                    problem_motion(p, p->x, body, x, v);
+                    *volume += w;
+                    for (int i = 0; i < p->dim; i++)
+                        sum[i] += w * v[i];
+                }
+            }
+}
+
+int norms_mean(const problem *p, int f, double *mean, error *err)
+{
+    double volume = 0;
+    fe_rule rule, own;
+
+    TRY(fe_rule_cell(p->mesh.type, 5, &rule, err));
+    memset(mean, 0, (size_t)p->space.field[f].n_comp * sizeof *mean);
+    for (int64_t e = 0; e < p->mesh.n_cell; e++) {
+        const fe_rule *part = problem_points(p, f, e, &rule, &own);
+
+        for (int q = 0; q < part->n; q++) {
+            point_data d;
+
+            at_point(p, f, e, part, q, &d);
+            volume += d.w;
+            for (int k = 0; k < p->space.field[f].n_comp; k++)
+                mean[k] += d.w * d.value[k];
+        }
+    }
+    add_bodies(p, f, mean, &volume);
+    for (int k = 0; k < p->space.field[f].n_comp; k++)
+        mean[k] /= volume;
     return 0;
 }

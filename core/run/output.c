@@ -293,7 +293,28 @@ int output_open(run *r, error *err)
     return status;
 }
 
-/* Reactions of a field on a boundary: minus the residual of the rows that it holds. */
+/* How many facets at each node prescribe the field: of this boundary in mine, of all in all. */
+static void count_facets(const problem *p, int boundary, int f, int n_local, uint8_t *mine, uint8_t *all)
+{
+    const mesh *m = &p->mesh;
+
+    for (int64_t k = 0; k < m->n_facet; k++) {
+        int prescribes = 0, here = (int)(m->facet[k].names >> boundary & 1);
+
+        for (int i = 0; i < p->n_line; i++)
+            prescribes |= p->line[i].facet && p->line[i].facet[k] && p->line[i].has_value[f];
+        for (int i = 0; (prescribes || here) && i < n_local; i++) {
+            int32_t node =
+                m->cell[(int64_t)m->facet[k].cell * m->type->n_node + m->type->facet[m->facet[k].local][i]];
+
+            mine[node] = (uint8_t)(mine[node] + here);
+            all[node] = (uint8_t)(all[node] + prescribes);
+        }
+    }
+}
+
+/* Reactions of a field on a boundary: minus the residual of the rows that it holds; where boundaries meet that both
+ * prescribe the field, each takes a part by its number of facets there. */
 static double *reaction(const run *r, int boundary, int f, const double *about, double *out)
 {
     const problem *p = r->p;
@@ -301,29 +322,28 @@ static double *reaction(const run *r, int boundary, int f, const double *about, 
     const space *s = &p->space;
     int n_comp = s->field[f].n_comp,
         n_local = s->field[f].order == 2 ? m->type->facet_nodes : m->type->facet_vertices;
-    uint8_t *seen = calloc((size_t)m->n_node, 1);
+    uint8_t *mine = calloc((size_t)(3 * m->n_node), 1), *all = mine + m->n_node, *seen = all + m->n_node;
     double torque[3] = {0}, sum[3] = {0};
 
-    for (int64_t k = 0; seen && k < m->n_facet; k++)
-        for (int i = 0; (m->facet[k].names >> boundary & 1) && i < n_local; i++) {
-            int32_t node =
-                m->cell[(int64_t)m->facet[k].cell * m->type->n_node + m->type->facet[m->facet[k].local][i]];
-            const double *res = r->residual + s->first[f][node];
-            int32_t carrier = s->dof_node[s->first[f][node]]; /* periodic ends are one node */
-            double d[3] = {0}, q[3] = {0};
+    if (mine)
+        count_facets(p, boundary, f, n_local, mine, all);
+    for (int32_t node = 0; mine && node < m->n_node; node++) {
+        const double *res = r->residual + (mine[node] ? s->first[f][node] : 0);
+        int32_t carrier = mine[node] ? s->dof_node[s->first[f][node]] : 0; /* periodic ends are one node */
+        double share = all[node] > mine[node] ? (double)mine[node] / all[node] : 1, d[3] = {0}, q[3] = {0};
 
-            if (seen[carrier]++)
-                continue;
-            for (int a = 0; a < n_comp; a++) {
-                q[a] = -res[a];
-                sum[a] += q[a];
-                d[a] = n_comp > 1 ? m->x[(int64_t)node * m->dim + a] - about[a] : 0;
-            }
-            torque[0] += d[1] * q[2] - d[2] * q[1];
-            torque[1] += d[2] * q[0] - d[0] * q[2];
-            torque[2] += d[0] * q[1] - d[1] * q[0];
+        if (!mine[node] || seen[carrier]++)
+            continue;
+        for (int a = 0; a < n_comp; a++) {
+            q[a] = -share * res[a];
+            sum[a] += q[a];
+            d[a] = n_comp > 1 ? m->x[(int64_t)node * m->dim + a] - about[a] : 0;
         }
-    free(seen);
+        torque[0] += d[1] * q[2] - d[2] * q[1];
+        torque[1] += d[2] * q[0] - d[0] * q[2];
+        torque[2] += d[0] * q[1] - d[1] * q[0];
+    }
+    free(mine);
     for (int a = 0; a < n_comp; a++)
         *out++ = sum[a];
     if (n_comp > 1)

@@ -101,28 +101,23 @@ static void push_errors(lua_State *l, const run_result *q)
 static void push_means(lua_State *l, const run *r)
 {
     const problem *p = r->p;
-    double *weight = lua_newuserdatauv(l, (size_t)p->space.n_dof * sizeof *weight, 0);
+    error err;
 
     lua_newtable(l);
     for (int f = 0; f < p->space.n_field; f++) {
-        double volume;
+        double mean[VALUE_MAX];
 
         if (p->space.field[f].support != PF_ON_MESH)
             continue;
-        volume = gauge_weights(&p->space, f, weight);
+        if (norms_mean(p, f, mean, &err))
+            luaL_error(l, "%s", err.text);
         lua_newtable(l);
         for (int c = 0; c < p->space.field[f].n_comp; c++) {
-            double sum = 0;
-
-            for (int64_t d = 0; d < p->space.n_dof; d++)
-                if (p->space.dof_field[d] == f && p->space.dof_comp[d] == c)
-                    sum += weight[d] * p->x[d];
-            lua_pushnumber(l, sum / volume);
+            lua_pushnumber(l, mean[c]);
             lua_rawseti(l, -2, c + 1);
         }
         lua_setfield(l, -2, p->space.field[f].name);
     }
-    lua_remove(l, -2);
 }
 
 static void push_argument(lua_State *l, const run *r)

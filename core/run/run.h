@@ -81,6 +81,9 @@ void output_close(run *r);
 
 /* |u_h - u|, |grad(u_h - u)|, |u| in L2 for a field whose exact solution the case gives. */
 int norms_of_error(const problem *p, int field, double t, double *l2, double *h1, double *exact, error *err);
+/* Mean of each component over the domain: of a field of the fluid only over the fluid, and bodies that move it
+ * count with their motion. */
+int norms_mean(const problem *p, int f, double *mean, error *err);
 
 /* Calls the case's results(function) and leaves JSON in r->results. */
 int results_evaluate(run *r, error *err);
