@@ -29,10 +29,15 @@ boundary "*" { u = field }
 particle { shape = disk { radius = R }, density = 1, at = {x0, y0}, motion = "fixed",
            velocity = {mode == "rot" and 0 or 0.5 - math.log(R), 0}, spin = mode == "rot" and 1 or 0 }
 
+if formulation == "sharp" then -- outside of the disk the solution is known
+  exact { u = field, p = function(x, y) return mode == "tr" and 2 * (x - x0) / ((x - x0) ^ 2 + (y - y0) ^ 2) or 0 end }
+end
+
 output { forces = {"left", "right", "bottom", "top"} }
 
 results(function(r)
   local box = 0 -- what the fluid does to the box is the opposite of what the disk does to the fluid
   for _, side in ipairs {"left", "right", "bottom", "top"} do box = box + r.last[side .. ".fx"] end
-  return { force_on_box = box / (4 * math.pi), force = -r.last["p0.fx"] / (4 * math.pi), torque = -r.last["p0.torque"] / (4 * math.pi * R * R) }
+  return { force_on_box = box / (4 * math.pi), force = -r.last["p0.fx"] / (4 * math.pi),
+           torque = -r.last["p0.torque"] / (4 * math.pi * R * R) }
 end)

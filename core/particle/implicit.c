@@ -14,6 +14,9 @@
 #include <math.h>
 #include <string.h>
 
+/* A direction serves for lines if the slope along it is at least this part of the whole. */
+#define MONOTONE 0.4
+
 enum { MOST_ROOTS = 16, PROBES = 6, DEPTH_2D = 5, DEPTH_3D = 4 };
 
 typedef struct work {
@@ -25,6 +28,7 @@ typedef struct work {
     double rotation[3][3];
     double x0[3], j[3][3]; /* of the cell, if it is affine */
     int n_gauss;           /* across the lines             */
+    double size;           /* of the cell                  */
 } work;
 
 typedef struct box {
@@ -98,8 +102,9 @@ static double level(const work *w, const double *c)
     return particle_level(w->p, w->rotation, x);
 }
 
-/* Gradient with respect to c; also to x. */
-static void slope(const work *w, const double *c, double *by_c, double *by_x)
+/* Gradient with respect to c, also to x; part[k]: along the line of c_k in space, per length (0 where the line is a
+ * point, in the corner of a collapsed box). */
+static void slope(const work *w, const double *c, double *by_c, double *by_x, double *part)
 {
     double xi[3] = {0}, d[3][3], x[3] = {0}, j[3][3] = {{0}};
 
@@ -107,10 +112,18 @@ static void slope(const work *w, const double *c, double *by_c, double *by_x)
     place(w, xi, x, j);
     particle_slope(w->p, w->rotation, x, by_x);
     for (int k = 0; k < w->dim; k++) {
+        double speed = 0;
+
         by_c[k] = 0;
-        for (int i = 0; i < w->dim; i++)
-            for (int a = 0; a < w->dim; a++)
-                by_c[k] += by_x[a] * j[a][i] * d[i][k];
+        for (int a = 0; a < w->dim; a++) {
+            double along = 0; /* d x_a / d c_k */
+
+            for (int i = 0; i < w->dim; i++)
+                along += j[a][i] * d[i][k];
+            by_c[k] += by_x[a] * along;
+            speed += along * along;
+        }
+        part[k] = speed > 1e-24 * w->size * w->size ? by_c[k] / sqrt(speed) : 0;
     }
 }
 
@@ -141,20 +154,39 @@ static double root(const work *w, double *c, int k, double a, double fa, double 
     return 0.5 * (a + b);
 }
 
-/* Adds the roots of the level on the line through c along k, found from sign changes. */
+/* Where the parabola through three equidistant values has its vertex, in steps from the middle one. */
+static double vertex(const double *f)
+{
+    double bend = f[0] - 2 * f[1] + f[2];
+
+    return bend != 0 ? 0.5 * (f[0] - f[2]) / bend : INFINITY;
+}
+
+/* Adds the roots of the level on the line through c along k: from changes of sign, and pairs of them from values
+ * of one sign that bend towards zero. */
 static int add_roots(const work *w, const double *through, int k, double low, double high, double *list, int n)
 {
-    double c[3] = {through[0], through[1], through[2]}, before = 0, at = low;
+    double c[3] = {through[0], through[1], through[2]}, f[PROBES + 1], at[PROBES + 1];
 
     for (int i = 0; i <= PROBES; i++) {
-        double s = low + (high - low) * i / PROBES, f;
+        at[i] = c[k] = low + (high - low) * i / PROBES;
+        f[i] = level(w, c);
+    }
+    for (int i = 1; i <= PROBES && n < MOST_ROOTS; i++)
+        if ((f[i] > 0) != (f[i - 1] > 0))
+            list[n++] = root(w, c, k, at[i - 1], f[i - 1], at[i], f[i]);
+    for (int i = 1; i < PROBES && n + 1 < MOST_ROOTS; i++) {
+        double s = vertex(f + i - 1), g;
 
-        c[k] = s;
-        f = level(w, c);
-        if (i && (f > 0) != (before > 0) && n < MOST_ROOTS)
-            list[n++] = root(w, c, k, at, before, s, f);
-        before = f;
-        at = s;
+        if ((f[i] > 0) != (f[i - 1] > 0) || (f[i] > 0) != (f[i + 1] > 0) || !(fabs(s) <= 1) ||
+            (s == 1 && i + 1 < PROBES))
+            continue;
+        s = c[k] = at[i] + s * (at[i] - at[i - 1]);
+        g = level(w, c);
+        if ((g > 0) == (f[i] > 0))
+            continue;
+        list[n++] = root(w, c, k, at[i - 1], f[i - 1], s, g);
+        list[n++] = root(w, c, k, s, g, at[i + 1], f[i + 1]);
     }
     return n;
 }
@@ -185,7 +217,7 @@ static void emit_inside(const work *w, const double *c, double weight)
 /* Area element at a crossing: n ds = det(dx/dc) grad phi / |d phi / d c_k| dc', n out of the body. */
 static void emit_surface(const work *w, const double *c, int k, double weight)
 {
-    double xi[3] = {0}, d[3][3], x[3] = {0}, j[3][3] = {{0}}, by_c[3], by_x[3], det, nds[3] = {0};
+    double xi[3] = {0}, d[3][3], x[3] = {0}, j[3][3] = {{0}}, by_c[3], by_x[3], part[3], det, nds[3] = {0};
 
     if (!w->sink->surface)
         return;
@@ -195,7 +227,7 @@ static void emit_surface(const work *w, const double *c, int k, double weight)
                        : j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) -
                              j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
                              j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
-    slope(w, c, by_c, by_x);
+    slope(w, c, by_c, by_x, part);
     for (int a = 0; a < w->dim && by_c[k] != 0; a++)
         nds[a] = weight * det * by_x[a] / fabs(by_c[k]);
     w->sink->surface(w->sink->ctx, xi, x, nds);
@@ -298,42 +330,46 @@ static void fill(work *w, const box *b, int test)
     }
 }
 
-/* Over 3^dim points of the box: bounds of the level and of its slopes, and the least part that a direction
- * has in the slope. */
+/* How well a direction serves, over several points: the least part of the slope along it, 0 if that changes sign.
+ */
+typedef struct direction {
+    double share;
+    int sign;
+} direction;
+
+static void judge(direction *d, double part, double size)
+{
+    int here = part > 0 ? 1 : -1;
+
+    if (part == 0) /* a collapsed corner says nothing */
+        return;
+    d->share = d->sign && d->sign != here ? 0 : fmin(d->share, fabs(part) / size);
+    d->sign = here;
+}
+
+/* Over 3^dim points of the box: the level in the middle, how much it may change from there, the directions. */
 typedef struct survey {
-    double centre, reach;      /* level in the middle, how much it may change from there */
-    double least[3], share[3]; /* 0: the slope changes its sign                           */
+    double centre, reach;
+    direction by[3];
 } survey;
 
 static survey look(const work *w, const box *b)
 {
-    survey s = {0};
+    survey s = {.by = {{1, 0}, {1, 0}, {1, 0}}};
     double most[3] = {0};
-    int sign[3] = {0};
 
-    for (int k = 0; k < w->dim; k++)
-        s.share[k] = INFINITY;
     for (int q = 0; q < (w->dim == 2 ? 9 : 27); q++) {
         int i[3] = {q % 3, q / 3 % 3, q / 9};
-        double c[3] = {0}, g[3], by_x[3], size = 0;
+        double c[3] = {0}, g[3], by_x[3], part[3] = {0};
 
         for (int k = 0; k < w->dim; k++)
             c[k] = b->low[k] + 0.5 * i[k] * (b->high[k] - b->low[k]);
-        slope(w, c, g, by_x);
+        slope(w, c, g, by_x, part);
         if (q == (w->dim == 2 ? 4 : 13))
             s.centre = level(w, c);
         for (int k = 0; k < w->dim; k++) {
-            g[k] *= b->high[k] - b->low[k];
-            size += g[k] * g[k];
-        }
-        for (int k = 0; k < w->dim; k++) {
-            int here = g[k] > 0 ? 1 : -1;
-
-            most[k] = fmax(most[k], fabs(g[k]));
-            s.share[k] = fmin(s.share[k], size > 0 ? fabs(g[k]) / sqrt(size) : 0);
-            if (sign[k] && sign[k] != here)
-                s.share[k] = 0;
-            sign[k] = here;
+            most[k] = fmax(most[k], fabs(g[k]) * (b->high[k] - b->low[k]));
+            judge(&s.by[k], part[k], sqrt(part[0] * part[0] + part[1] * part[1] + part[2] * part[2]));
         }
     }
     for (int k = 0; k < w->dim; k++)
@@ -341,12 +377,45 @@ static survey look(const work *w, const box *b)
     return s;
 }
 
+/* For lines along k in 3D: the direction j in which, on the sides low and high of k that the surface crosses, the
+ * level is monotone; *share: how well, infinite if it crosses neither. */
+static int inner_direction(const work *w, const box *b, int k, double *share)
+{
+    const int d[2] = {(k + 1) % 3, (k + 2) % 3};
+    double least[2] = {INFINITY, INFINITY};
+
+    for (int side = 0; side < 2; side++) {
+        direction by[2] = {{1, 0}, {1, 0}};
+        double reach[2] = {0}, centre = 0;
+
+        for (int q = 0; q < 9; q++) {
+            double c[3], g[3], by_x[3], part[3];
+
+            c[k] = side ? b->high[k] : b->low[k];
+            for (int i = 0; i < 2; i++)
+                c[d[i]] = b->low[d[i]] + 0.5 * (i ? q / 3 : q % 3) * (b->high[d[i]] - b->low[d[i]]);
+            slope(w, c, g, by_x, part);
+            if (q == 4)
+                centre = level(w, c);
+            for (int i = 0; i < 2; i++) {
+                reach[i] = fmax(reach[i], fabs(g[d[i]]) * (b->high[d[i]] - b->low[d[i]]));
+                judge(&by[i], part[d[i]], hypot(part[d[0]], part[d[1]]));
+            }
+        }
+        for (int i = 0; i < 2 && fabs(centre) <= 0.6 * (reach[0] + reach[1]); i++)
+            least[i] = fmin(least[i], by[i].share);
+    }
+    *share = fmax(least[0], least[1]);
+    return least[1] > least[0] ? d[1] : d[0];
+}
+
 static void divide(work *w, const box *b, int depth);
 
 static void integrate(work *w, const box *b, int depth)
 {
     survey s = look(w, b);
-    int k = 0, must_divide = depth < (shape_is_smooth(&w->p->shape) ? 0 : 2);
+    int k = 0, j = 0, again = depth < (shape_is_smooth(&w->p->shape) ? 0 : 2);
+    double share = INFINITY;
 
     if (fabs(s.centre) > s.reach) {
         if (s.centre < 0)
@@ -356,24 +425,21 @@ static void integrate(work *w, const box *b, int depth)
         return;
     }
     for (int i = 1; i < w->dim; i++)
-        k = s.share[i] > s.share[k] ? i : k;
-    if (must_divide || (s.share[k] < 0.2 && depth < w->most_depth)) {
+        k = s.by[i].share > s.by[k].share ? i : k;
+    if (w->dim == 3)
+        j = inner_direction(w, b, k, &share);
+    if (again || ((s.by[k].share < MONOTONE || share < MONOTONE / 2) && depth < w->most_depth)) {
         divide(w, b, depth);
         return;
     }
-    if (s.share[k] == 0) {
+    if (s.by[k].share == 0) {
         fill(w, b, 1);
         return;
     }
-    if (w->dim == 2) {
-        double c[3] = {0};
-
-        sweep(w, b, c, k, 1 - k, 1);
-    } else {
-        int i = (k + 1) % 3, j = (k + 2) % 3; /* the surface is steeper against j */
-
-        sweep_planes(w, b, k, s.share[j] > s.share[i] ? j : i, s.share[j] > s.share[i] ? i : j);
-    }
+    if (w->dim == 2)
+        sweep(w, b, (double[3]){0}, k, 1 - k, 1);
+    else
+        sweep_planes(w, b, k, j, 3 - k - j);
 }
 
 static void divide(work *w, const box *b, int depth)
@@ -421,6 +487,7 @@ int implicit_cell(const mesh *m, int32_t cell, const particle *p, const implicit
     box b = {{0}, {1, 1, 1}};
 
     w.most_depth = m->dim == 2 ? DEPTH_2D : DEPTH_3D;
+    w.size = m->h[cell];
     w.affine = find_affine(&w);
     particle_rotation(p, w.rotation);
     integrate(&w, &b, 0);

@@ -6,6 +6,7 @@
 #include "run/run.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static int exact_gradient(const problem *p, int f, const double *x, double t, double h, double *g, error *err)
@@ -31,8 +32,8 @@ typedef struct point_data {
     double value[VALUE_MAX], gradient[VALUE_MAX * 3];
 } point_data;
 
-/* Point q of cell e: where it is, and u_h and its gradient there. */
-static void at_point(const problem *p, int f, int64_t e, const fe_rule *rule, int q, point_data *d)
+/* A point of cell e: where it is, and u_h and its gradient there. */
+static void at_point(const problem *p, int f, int64_t e, const double *xi, double weight, point_data *d)
 {
     const mesh *m = &p->mesh;
     const fe_cell *c = m->type;
@@ -40,7 +41,7 @@ static void at_point(const problem *p, int f, int64_t e, const fe_rule *rule, in
     double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], j[3][3], inv[3][3], det;
     int dim = p->dim, n_basis = fe_n_basis(c, g->order);
 
-    fe_basis(c, 2, rule->x[q], n, dn);
+    fe_basis(c, 2, xi, n, dn);
     memset(d, 0, sizeof *d);
     det = mesh_map(m, e, n, (const double(*)[3])dn, d->x, j);
     for (int a = 0; a < 3; a++)
@@ -49,9 +50,9 @@ static void at_point(const problem *p, int f, int64_t e, const fe_rule *rule, in
 
             inv[a][b] = j[r][u] * j[s][v] - j[r][v] * j[s][u];
         }
-    d->w = rule->w[q] * det;
+    d->w = weight * det;
     d->h = m->h[e];
-    fe_basis(c, g->order, rule->x[q], n, dn);
+    fe_basis(c, g->order, xi, n, dn);
     for (int i = 0; i < n_basis; i++) {
         int64_t node = g->order == 0 ? m->n_node : m->cell[e * c->n_node + (g->order == 2 ? i : c->vertex[i])];
 
@@ -66,43 +67,128 @@ static void at_point(const problem *p, int f, int64_t e, const fe_rule *rule, in
     }
 }
 
+/* Points and weights on the reference cell. */
+typedef struct point_list {
+    int n;
+    double (*x)[3], *w;
+} point_list;
+
+enum { FINE_2D = 8, FINE_3D = 4, GAUSS = 3 }; /* sub-cells and points in each, per direction */
+
+/* All of a cell cut fine; simplices are boxes collapsed. */
+static int fine_points(int dim, int simplex, point_list *l, error *err)
+{
+    static const double g[3] = {-0.77459666924148337704, 0, 0.77459666924148337704},
+                        w[3] = {5 / 9.0, 8 / 9.0, 5 / 9.0};
+    int m = (dim == 2 ? FINE_2D : FINE_3D) * GAUSS;
+
+    l->n = dim == 2 ? m * m : m * m * m;
+    l->x = malloc((size_t)l->n * sizeof *l->x);
+    l->w = malloc((size_t)l->n * sizeof *l->w);
+    if (!l->x || !l->w)
+        return error_memory(err, "norms", 32.0 * l->n);
+    for (int i = 0; i < l->n; i++) {
+        int at[3] = {i % m, i / m % m, i / (m * m)};
+        double c[3] = {0};
+
+        l->w[i] = 1;
+        for (int k = 0; k < dim; k++) {
+            c[k] = (at[k] / GAUSS + 0.5 + 0.5 * g[at[k] % GAUSS]) * GAUSS / m;
+            l->w[i] *= 0.5 * w[at[k] % GAUSS] * GAUSS / m * (simplex ? 1 : 2);
+        }
+        l->x[i][0] = simplex ? c[0] * (1 - c[1]) * (1 - c[2]) : 2 * c[0] - 1;
+        l->x[i][1] = simplex ? c[1] * (1 - c[2]) : 2 * c[1] - 1;
+        l->x[i][2] = simplex ? c[2] : dim == 3 ? 2 * c[2] - 1 : 0;
+        l->w[i] *= simplex ? (1 - c[1]) * (dim == 3 ? (1 - c[2]) * (1 - c[2]) : 1) : 1;
+    }
+    return 0;
+}
+
+/* Whether a point of a cell lies inside a body. */
+static int is_inside(const problem *p, int64_t cell, const double *x)
+{
+    const space *s = &p->space;
+
+    for (int64_t k = 0; k < p->n_covered; k++) {
+        int32_t a = p->covered[k];
+        particle here = p->particle[s->attached_particle[a]];
+        double r[3][3];
+
+        if (s->attached_cell[a] != cell)
+            continue;
+        for (int i = 0; i < 3; i++)
+            here.x[i] += p->shift[a][i];
+        particle_rotation(&here, r);
+        if (particle_level(&here, (const double(*)[3])r, x) < 0)
+            return 1;
+    }
+    return 0;
+}
+
+/* Sums of a norm. */
+typedef struct norm_sums {
+    double sum, grad, size, mean, mean_exact, volume;
+} norm_sums;
+
+static int add_point(const problem *p, int f, double t, const point_data *d, norm_sums *s, error *err)
+{
+    double u[VALUE_MAX], g[VALUE_MAX * 3];
+
+    TRY(value_at(&p->exact[f], d->x, t, u, err));
+    TRY(exact_gradient(p, f, d->x, t, 1e-3 * d->h, g, err));
+    s->volume += d->w;
+    s->mean += d->w * (d->value[0] - u[0]);
+    s->mean_exact += d->w * u[0];
+    for (int k = 0; k < p->space.field[f].n_comp; k++) {
+        s->sum += d->w * (d->value[k] - u[k]) * (d->value[k] - u[k]);
+        s->size += d->w * u[k] * u[k];
+        for (int i = k * p->dim; i < (k + 1) * p->dim; i++)
+            s->grad += d->w * (d->gradient[i] - g[i]) * (d->gradient[i] - g[i]);
+    }
+    return 0;
+}
+
+/* All cells; of a field of the fluid only, the points of cut cells that are outside of the bodies. */
+static int add_cells(const problem *p, int f, double t, const point_list *whole, const point_list *fine,
+                     norm_sums *s, error *err)
+{
+    for (int64_t e = 0; e < p->mesh.n_cell; e++) {
+        int off = p->n_particle && p->fluid_only[f] ? p->fluid_off[e] : 0;
+        const point_list *l = off ? fine : whole;
+
+        for (int q = 0; off < 2 && q < l->n; q++) {
+            point_data d;
+
+            at_point(p, f, e, l->x[q], l->w[q], &d);
+            if (!off || !is_inside(p, e, d.x))
+                TRY(add_point(p, f, t, &d, s, err));
+        }
+    }
+    return 0;
+}
+
 int norms_of_error(const problem *p, int f, double t, double *l2, double *h1, double *exact, error *err)
 {
     const mesh *m = &p->mesh;
-    int n = p->space.field[f].n_comp, dim = p->dim;
-    double sum = 0, grad = 0, size = 0, mean = 0, mean_exact = 0, volume = 0;
-    fe_rule rule, own;
+    norm_sums s = {0};
+    point_list fine = {0};
+    fe_rule rule;
+    int status;
 
     TRY(fe_rule_cell(m->type, m->type->simplex ? 5 : 7, &rule, err));
-    for (int64_t e = 0; e < m->n_cell; e++) {
-        const fe_rule *part = problem_points(p, f, e, &rule, &own);
-
-        for (int q = 0; q < part->n; q++) {
-            point_data d;
-            double u[VALUE_MAX], g[VALUE_MAX * 3];
-
-            at_point(p, f, e, part, q, &d);
-            TRY(value_at(&p->exact[f], d.x, t, u, err));
-            TRY(exact_gradient(p, f, d.x, t, 1e-3 * d.h, g, err));
-            volume += d.w;
-            mean += d.w * (d.value[0] - u[0]);
-            mean_exact += d.w * u[0];
-            for (int k = 0; k < n; k++) {
-                sum += d.w * (d.value[k] - u[k]) * (d.value[k] - u[k]);
-                size += d.w * u[k] * u[k];
-                for (int a = 0; a < dim; a++)
-                    grad += d.w * (d.gradient[k * dim + a] - g[k * dim + a]) *
-                            (d.gradient[k * dim + a] - g[k * dim + a]);
-            }
-        }
-    }
+    status = fine_points(p->dim, m->type->simplex, &fine, err);
+    if (!status)
+        status = add_cells(p, f, t, &(point_list){rule.n, rule.x, rule.w}, &fine, &s, err);
+    free(fine.x);
+    free(fine.w);
+    TRY(status);
     if (p->system.gauge.free[f]) {
-        sum -= mean * mean / volume;
-        size -= mean_exact * mean_exact / volume;
+        s.sum -= s.mean * s.mean / s.volume;
+        s.size -= s.mean_exact * s.mean_exact / s.volume;
     }
-    *l2 = sqrt(fmax(sum, 0)); /* weights of cut cells have any sign */
-    *h1 = sqrt(grad);
-    *exact = sqrt(fmax(size, 0));
+    *l2 = sqrt(fmax(s.sum, 0));
+    *h1 = sqrt(s.grad);
+    *exact = sqrt(fmax(s.size, 0));
     return 0;
 }
 
@@ -146,7 +232,7 @@ int norms_mean(const problem *p, int f, double *mean, error *err)
         for (int q = 0; q < part->n; q++) {
             point_data d;
 
-            at_point(p, f, e, part, q, &d);
+            at_point(p, f, e, part->x[q], part->w[q], &d);
             volume += d.w;
             for (int k = 0; k < p->space.field[f].n_comp; k++)
                 mean[k] += d.w * d.value[k];

@@ -49,6 +49,7 @@ static int has_constant(const newton_system *s, int f)
 {
     const space *sp = s->space;
     const linear *l = &s->linear;
+    double tolerance = s->gauge.tolerance > 0 ? s->gauge.tolerance : ROUND_OFF;
     double *left = s->work, left_sum = 0, left_abs = 0, right_sum = 0, right_abs = 0;
 
     memset(left, 0, (size_t)sp->n_dof * sizeof *left);
@@ -76,8 +77,8 @@ static int has_constant(const newton_system *s, int f)
     }
     for (int64_t i = 0; i < sp->n_free; i++)
         left_sum += left[i] * left[i];
-    return right_abs > 0 && left_abs > 0 && sqrt(right_sum) <= ROUND_OFF * sqrt(right_abs) &&
-           sqrt(left_sum) <= ROUND_OFF * sqrt(left_abs);
+    return right_abs > 0 && left_abs > 0 && sqrt(right_sum) <= tolerance * sqrt(right_abs) &&
+           sqrt(left_sum) <= tolerance * sqrt(left_abs);
 }
 
 int gauge_detect(newton_system *s, error *err)

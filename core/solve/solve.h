@@ -49,6 +49,7 @@ void linear_destroy(linear *l);
 
 typedef struct gauge {
     int known;
+    double tolerance;                 /* of the null vector, relative; 0: round-off       */
     int free[SPACE_MAX_FIELDS];       /* the field has a free constant                    */
     double *weight[SPACE_MAX_FIELDS]; /* [n_dof] integral of each basis function         */
     double volume;
