@@ -196,6 +196,16 @@ static int place_items(assembly *a, assembly_class *c, const assembly_spec *spec
     return split_slabs(a, c, cell, facet, err);
 }
 
+/* Room for the values of the case's functions at the points. */
+static int place_tables(arena *memory, assembly_class *c, error *err)
+{
+    for (int i = 0; i < c->n_input; i++)
+        if (c->input[i].data && c->input[i].data->f)
+            ARENA_NEW(memory, c->input[i].table, c->n_batch * c->input[i].n_comp * c->n_q + 1, err);
+    c->data_ready = 0;
+    return 0;
+}
+
 int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err)
 {
     const space *s = a->space;
@@ -228,10 +238,7 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
     if (c->follows)
         return 0; /* its items come with the bodies */
     TRY(place_items(a, c, spec, err));
-    for (int i = 0; i < c->n_input; i++)
-        if (c->input[i].data && c->input[i].data->f)
-            ARENA_NEW(&a->memory, c->input[i].table, c->n_batch * c->input[i].n_comp * c->n_q, err);
-    return 0;
+    return place_tables(&a->memory, c, err);
 }
 
 int plan_workspace(const assembly *a, workspace *w, error *err)
@@ -302,7 +309,7 @@ static int renew_items(assembly_class *c, int64_t n, error *err)
     for (int64_t b = 0; b <= c->n_batch; b++)
         c->batch[b] = b * PF_LANES < n ? b * PF_LANES : n;
     c->slab[1] = c->slab[2] = c->n_batch;
-    return 0;
+    return place_tables(&c->item_memory, c, err);
 }
 
 /* Items of the classes that follow the bodies, one function for each kind of points. */

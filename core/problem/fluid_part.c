@@ -9,6 +9,8 @@
  * keeps room for those that it has met since cells were attached to the bodies, so that it rarely changes. */
 #include "problem/problem.h"
 
+#include "space/locate.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -146,39 +148,6 @@ static void centre_of(const problem *p, int32_t cell, double *x)
                     c->n_vertex;
 }
 
-/* Reference coordinates of x in a cell that it need not lie in: Newton; 0 if that fails. */
-static int invert(const problem *p, int32_t cell, const double *x, double *xi)
-{
-    const mesh *m = &p->mesh;
-
-    for (int k = 0; k < 3; k++)
-        xi[k] = k < p->dim && m->type->simplex ? 1.0 / (p->dim + 1) : 0;
-    for (int i = 0; i < 30; i++) {
-        double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], at[3], j[3][3], r[3] = {0}, det, change = 0;
-
-        fe_basis(m->type, 2, xi, n, dn);
-        det = mesh_map(m, cell, n, (const double(*)[3])dn, at, j);
-        for (int k = 0; k < p->dim; k++)
-            r[k] = x[k] - at[k];
-        for (int b = 0; b < p->dim; b++) {
-            double d = 0;
-
-            for (int k = 0; k < 3; k++)
-                d += r[k] *
-                     (j[(k + 1) % 3][(b + 1) % 3] * j[(k + 2) % 3][(b + 2) % 3] -
-                      j[(k + 1) % 3][(b + 2) % 3] * j[(k + 2) % 3][(b + 1) % 3]) /
-                     det;
-            xi[b] += d;
-            change = fmax(change, fabs(d));
-        }
-        if (!(change < 20))
-            return 0;
-        if (change < 1e-12)
-            return 1;
-    }
-    return 0;
-}
-
 /* Appends a group of carriers; its number. */
 int fluid_add_group(problem *p, const int32_t *carrier, int n, error *err)
 {
@@ -312,7 +281,7 @@ static int tie_cell(problem *p, int32_t bad, const fe_rule *rule, int *fresh, er
             mesh_map(&p->mesh, bad, b, (const double(*)[3])db, x, j);
             for (int a = 0; a < p->dim; a++)
                 x[a] += list[i].shift[a];
-            ok = invert(p, list[i].cell, x, t->ref[at * rule->n + q]);
+            ok = locate_in_cell(&p->mesh, list[i].cell, x, t->ref[at * rule->n + q]) >= 0;
         }
         if (!ok)
             continue;
@@ -393,50 +362,6 @@ void fluid_activate(problem *p, double *x)
                 }
 }
 
-void problem_motion(const problem *p, const double *x, int k, const double *at, double *v)
-{
-    int64_t u = problem_particle_dof(p, k, PF_VECTOR), w = problem_particle_dof(p, k, PF_SPIN);
-    double r[3] = {0}, spin[3] = {0};
-
-    for (int b = 0; b < p->dim; b++)
-        r[b] = at[b] - p->particle[k].x[b];
-    for (int b = 0; w >= 0 && b < (p->dim == 2 ? 1 : 3); b++)
-        spin[p->dim == 2 ? 2 : b] = x[w + b];
-    for (int b = 0; b < p->dim; b++) {
-        const int i = (b + 1) % 3, j = (b + 2) % 3;
-
-        v[b] = x[u + b] + spin[i] * r[j] - spin[j] * r[i];
-    }
-}
-
-void problem_fill(problem *p, double *x)
-{
-    space *s = &p->space;
-    const fe_cell *c = p->mesh.type;
-
-    for (int g = 0; g < s->n_field; g++) {
-        int f = s->field[g].support == PF_ON_PARTICLE && s->field[g].shape == PF_VECTOR && s->field[g].constrains
-                    ? space_find_field(s, s->field[g].constrains)
-                    : -1;
-
-        for (int64_t k = 0; f >= 0 && p->fluid_only[f] && k < p->n_covered; k++)
-            for (int i = 0, a = p->covered[k]; i < c->n_node; i++) {
-                int32_t node = p->mesh.cell[(int64_t)s->attached_cell[a] * c->n_node + i];
-                int64_t d = s->first[f][node];
-                double at[3] = {0}, v[3];
-
-                if (!s->idle[d])
-                    continue;
-                for (int b = 0; b < p->dim; b++)
-                    at[b] = p->mesh.x[(int64_t)node * p->dim + b] - p->shift[a][b];
-                problem_motion(p, x, s->attached_particle[a], at, v);
-                for (int b = 0; b < p->dim; b++)
-                    if (!s->fixed[d + b])
-                        x[d + b] = v[b];
-            }
-    }
-}
-
 void fluid_forget(problem *p)
 {
     p->tie.n_known = 0;
@@ -454,6 +379,7 @@ int fluid_create(problem *p, error *err)
     ARENA_NEW(&p->memory, p->covered_by, p->mesh.n_cell, err);
     ARENA_NEW(&p->memory, p->tie.first, p->mesh.n_cell, err);
     ARENA_NEW(&p->memory, p->near_cell, p->mesh.n_cell, err);
+    ARENA_NEW(&p->memory, p->filled, p->space.n_carrier, err);
     find_fields(p);
     for (int i = 0; i < p->n_use; i++) {
         p->has_surface |= p->use[i].where == PF_SURFACE;

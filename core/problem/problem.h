@@ -129,9 +129,10 @@ typedef struct problem {
     int fluid_only[SPACE_MAX_FIELDS]; /* fields with equations in the fluid only              */
     surface_list surface;
     tie_list tie;
-    int32_t *near_cell;    /* room for a search                                       */
-    int64_t extra_room[2]; /* of the lists of extra groups in the space               */
-    near_pair *pair;       /* bodies near something                                  */
+    int32_t *filled, n_fill; /* [n_carrier] the last round that filled the node         */
+    int32_t *near_cell;      /* room for a search                                       */
+    int64_t extra_room[2];   /* of the lists of extra groups in the space               */
+    near_pair *pair;         /* bodies near something                                  */
     int64_t n_pair, n_link;
     unsigned walls;          /* bit k: side k of the box is a wall */
     double pair_range;       /* gap up to which pairs are looked for                   */

@@ -58,7 +58,7 @@ static int is_inside(const fe_cell *c, const double *xi)
     return !c->simplex || sum <= 1 + OUTSIDE;
 }
 
-static int invert(const mesh *m, int64_t e, const double *x, double *xi)
+int locate_in_cell(const mesh *m, int64_t e, const double *x, double *xi)
 {
     for (int k = 0; k < 3; k++)
         xi[k] = m->type->simplex ? 0.25 : 0;
@@ -74,7 +74,7 @@ static int invert(const mesh *m, int64_t e, const double *x, double *xi)
             size = fmax(size, fabs(d[k]));
         }
         if (!(size < 1e3))
-            return 0;
+            return -1;
         if (size < 1e-13)
             break;
     }
@@ -99,7 +99,7 @@ located locate_point(const mesh *m, const double *x)
             margin = 0.2 * (high - low) + 1e-12 * m->h[e];
             near = x[k] >= low - margin && x[k] <= high + margin;
         }
-        if (near && invert(m, e, x, at.xi)) {
+        if (near && locate_in_cell(m, e, x, at.xi) > 0) {
             at.cell = (int32_t)e;
             break;
         }
