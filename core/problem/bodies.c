@@ -283,6 +283,11 @@ int problem_cut(problem *p, double *x, error *err)
         TRY(fluid_weights(p, err));
         if (p->has_ties)
             TRY(fluid_ties(p, &fresh, err));
+        if (p->tie.n_rootless > 0 && p->rootless++ == 0)
+            text_add(&p->c->printed,
+                     "warning: %lld cells with little fluid have no neighbour to be tied to (a gap narrower than a "
+                     "cell?); summary.json counts how often that happens\n",
+                     (long long)p->tie.n_rootless);
     }
     if (again || fresh)
         TRY(renew_matrix(p, err));

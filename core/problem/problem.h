@@ -142,6 +142,7 @@ typedef struct problem {
     double *cut_basis; /* second-order basis at the points of the cut rule       */
     double h_mean, h_max;
     int coarse_warned;
+    long rootless; /* how often some bad cell had no root */
     long n_attach;                      /* how often cells were attached anew                     */
     arena envelope_memory, step_memory; /* until cells are attached anew; until the next cut */
     int n_dirichlet;

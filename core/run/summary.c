@@ -46,6 +46,8 @@ int output_summary(run *r, error *err)
         number(&t, "particles", p->n_particle);
     number(&t, "steps", (double)q->steps);
     number(&t, "steps_halved", q->halved);
+    if (r->p->has_ties)
+        number(&t, "cuts_with_rootless_cells", (double)r->p->rootless);
     number(&t, "newton_iterations", q->newton_iterations);
     number(&t, "newton_order", q->newton_order);
     number(&t, "gmres_iterations", q->gmres_iterations);

@@ -227,10 +227,10 @@ int linear_solve(linear *l, const double *b, double *x, double tol, error *err)
     TRY(factor(l, err));
     t = solve_seconds();
     TRY(gmres(l, b, x, LINEAR_ACCEPT, 1, &reached, err));
-    if (isfinite(reached) && reached > l->stats.worst_residual)
-        l->stats.worst_residual = reached;
     if (!(reached <= LINEAR_ACCEPT))
         TRY(gmres(l, b, x, LINEAR_ACCEPT, l->max_iterations, &reached, err));
+    if (isfinite(reached) && reached > l->stats.worst_residual)
+        l->stats.worst_residual = reached;
     l->stats.solve_seconds += solve_seconds() - t;
     if (!(reached <= 1e-6)) {
         error_set(err, ERR_CONVERGE, "the linear system is nearly singular: residual %.2g after factoring it",
