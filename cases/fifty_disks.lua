@@ -6,7 +6,7 @@ local n = param("n", 16, "cells per cm")
 local dt = param("dt", 0.005, "time step, s")
 local steps = param("steps", 500, "time steps")
 local count = param("count", 50, "disks")
-local formulation = param("formulation", "conservative", "conservative or sharp")
+local formulation = param("formulation", "sharp", "sharp or conservative")
 
 mesh  { box = {{0, 0}, {2, 4}}, cells = {2 * n, 4 * n} }
 fluid { density = 1, viscosity = 0.1, gravity = {0, -981} }

@@ -6,7 +6,7 @@ local n = param("n", 20, "cells in each direction; D/h = 0.4 n")
 local mode = param("mode", "tr", "tr: the disk moves along x; rot: it rotates")
 local x0, y0 = param("x0", 0.013, "centre"), param("y0", 0.0091, "centre")
 local shape = param("shape", "quads", "quads or triangles")
-local formulation = param("formulation", "conservative", "conservative, sharp or appendix")
+local formulation = param("formulation", "sharp", "sharp, conservative or appendix")
 local alpha = param("alpha", 1e5, "of the appendix, kg/m^3/s")
 local R = 0.2
 

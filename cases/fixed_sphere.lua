@@ -5,7 +5,7 @@ case "Fixed sphere, exact Stokes flow"
 local n = param("n", 8, "cells in each direction; D/h = n / 2")
 local mode = param("mode", "tr", "tr: the sphere moves along x; rot: it rotates round z")
 local x0, y0, z0 = param("x0", 0.013, "centre"), param("y0", 0.0091, "centre"), param("z0", -0.0072, "centre")
-local formulation = param("formulation", "conservative", "conservative or sharp")
+local formulation = param("formulation", "sharp", "sharp or conservative")
 local shape = param("shape", "hexes", "hexes or tets")
 local R = 0.25
 

@@ -6,7 +6,7 @@ local n = param("n", 12, "cells per cm")
 local dt = param("dt", 0.01, "time step, s")
 local stop = param("stop", 0.9, "end, s")
 local rho = param("density", 0.75, "density of the disk, g/cm^3")
-local formulation = param("formulation", "conservative", "conservative or sharp")
+local formulation = param("formulation", "sharp", "sharp or conservative")
 local d, mu = 0.25, 0.1
 
 mesh  { box = {{0, 0}, {2, 6}}, cells = {2 * n, 6 * n} }

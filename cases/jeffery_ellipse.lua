@@ -5,7 +5,7 @@ case "Ellipse in shear"
 local m = param("m", 24, "cells over the refined middle, four semi-axes wide")
 local dt = param("dt", 0.1, "time step; the shear rate is 1")
 local box = param("box", 10, "half width of the box, in larger semi-axes")
-local formulation = param("formulation", "conservative", "conservative or sharp")
+local formulation = param("formulation", "sharp", "sharp or conservative")
 
 local lines = grid { -box, 8, -2, m, 2, 8, box }
 mesh  { box = {{-box, -box}, {box, box}}, cells = {lines, lines} }

@@ -4,7 +4,7 @@ case "Neutrally buoyant body at rest"
 
 local gx, gy = param("gx", 3, "gravity"), param("gy", -981, "gravity")
 local steps = param("steps", 100, "time steps")
-local formulation = param("formulation", "conservative", "conservative or sharp")
+local formulation = param("formulation", "sharp", "sharp or conservative")
 
 mesh  { box = {{0, 0}, {1, 1}}, cells = {16, 16} }
 fluid { density = 1, viscosity = 0.01, gravity = {gx, gy} }

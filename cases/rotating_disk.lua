@@ -4,7 +4,7 @@ case "Rotating disk, exact Stokes flow"
 
 local n = param("n", 20, "cells in each direction; D/h = 0.4 n")
 local x0, y0 = param("x0", 0.013, "centre"), param("y0", 0.0091, "centre")
-local formulation = param("formulation", "conservative", "conservative or sharp")
+local formulation = param("formulation", "sharp", "sharp or conservative")
 local R, w = 0.2, 1
 
 local function field(x, y)

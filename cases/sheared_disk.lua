@@ -4,7 +4,7 @@ case "Disk in shear"
 
 local n = param("n", 28, "cells in each direction; D/h = 0.4 n")
 local x0, y0 = param("x0", 0.013, "centre"), param("y0", 0.0091, "centre")
-local formulation = param("formulation", "conservative", "conservative or sharp")
+local formulation = param("formulation", "sharp", "sharp or conservative")
 
 mesh  { box = {{-0.5, -0.5}, {0.5, 0.5}}, cells = {n, n} }
 fluid { density = 1, viscosity = 1 }

@@ -5,7 +5,7 @@ case "Sphere in shear"
 local n = param("n", 10, "cells in each direction; D/h = n / 2")
 local x0, y0, z0 = param("x0", 0.013, "centre"), param("y0", 0.0091, "centre"), param("z0", -0.0072, "centre")
 local hold = param("hold", "nothing", "nothing, or place: the sphere may only turn")
-local formulation = param("formulation", "conservative", "conservative or sharp")
+local formulation = param("formulation", "sharp", "sharp or conservative")
 
 mesh  { box = {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, cells = {n, n, n} }
 fluid { density = 1, viscosity = 1 }

@@ -4,7 +4,7 @@ case "Periodic array of spheres"
 
 local n = param("n", 12, "cells along the side of the cube")
 local phi = param("phi", 0.064, "volume fraction of the spheres")
-local formulation = param("formulation", "conservative", "conservative or sharp")
+local formulation = param("formulation", "sharp", "sharp or conservative")
 local a = (3 * phi / (4 * math.pi)) ^ (1 / 3)
 
 mesh  { box = {{0, 0, 0}, {1, 0.5, 0.5}}, cells = {n, n // 2, n // 2} }

@@ -3,9 +3,9 @@
 case "Ten spheres in a box"
 
 local n = param("n", 12, "cells in each direction; D/h = n / 4")
-local dt = param("dt", 0.02, "time step, s")
-local steps = param("steps", 40, "number of steps")
-local formulation = param("formulation", "conservative", "conservative or sharp")
+local dt = param("dt", 0.015, "time step, s")
+local steps = param("steps", 50, "number of steps")
+local formulation = param("formulation", "sharp", "sharp or conservative")
 local R = 0.125
 
 mesh  { box = {{0, 0, 0}, {1, 1, 1}}, cells = {n, n, n} }
@@ -18,7 +18,7 @@ term "contact.repulsion" { range = 0.06 }
 
 boundary "*" { u = {0, 0, 0} }
 
-particles { n = 10, shape = sphere { radius = R }, density = 1.5, inside = {{0.05, 0.05, 0.3}, {0.95, 0.95, 0.95}}, gap = 0.01, seed = 4 }
+particles { n = 10, shape = sphere { radius = R }, density = 3, inside = {{0.05, 0.05, 0.3}, {0.95, 0.95, 0.95}}, gap = 0.01, seed = 4 }
 
 time   { scheme = "bdf2", step = dt, stop = steps * dt }
 output { every = steps * dt / 8 }

@@ -5,7 +5,7 @@ case "Drafting, kissing, tumbling"
 local n = param("n", 16, "cells per cm")
 local dt = param("dt", 0.005, "time step, s")
 local stop = param("stop", 1.0, "end, s")
-local formulation = param("formulation", "conservative", "conservative or sharp")
+local formulation = param("formulation", "sharp", "sharp or conservative")
 local d = 0.25
 
 mesh  { box = {{0, 0}, {2, 6}}, cells = {2 * n, 6 * n} }

@@ -228,7 +228,7 @@ int linear_solve(linear *l, const double *b, double *x, double tol, error *err)
     t = solve_seconds();
     TRY(gmres(l, b, x, LINEAR_ACCEPT, 1, &reached, err));
     if (!(reached <= LINEAR_ACCEPT))
-        TRY(gmres(l, b, x, LINEAR_ACCEPT, l->max_iterations, &reached, err));
+        TRY(gmres(l, b, x, 0.1 * LINEAR_ACCEPT, l->max_iterations, &reached, err));
     if (isfinite(reached) && reached > l->stats.worst_residual)
         l->stats.worst_residual = reached;
     l->stats.solve_seconds += solve_seconds() - t;

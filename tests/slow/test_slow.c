@@ -73,7 +73,9 @@ static void dfg_3d_1z_is_a_few_per_cent_off_on_its_coarse_mesh(void **state)
 static void an_ellipse_turns_with_jefferys_period(void **state)
 {
     (void)state;
-    assert_ran(plugflow("run cases/jeffery_ellipse.lua --quiet --out %s/jeffery", scratch()), 0, NULL);
+    assert_ran(plugflow("run cases/jeffery_ellipse.lua --quiet --set formulation=conservative --out %s/jeffery",
+                        scratch()),
+               0, NULL);
     print_message("# ellipse in shear: period %.3f, turning at %.4f to %.4f\n",
                   summary("jeffery", "results.period"), summary("jeffery", "results.slowest"),
                   summary("jeffery", "results.fastest"));
@@ -83,7 +85,8 @@ static void an_ellipse_turns_with_jefferys_period(void **state)
 static void two_disks_meet_without_overlap(void **state)
 {
     (void)state;
-    assert_ran(plugflow("run cases/two_disks.lua --quiet --out %s/two", scratch()), 0, NULL);
+    assert_ran(plugflow("run cases/two_disks.lua --quiet --set formulation=conservative --out %s/two", scratch()),
+               0, NULL);
     print_message("# two disks: smallest gap %.3f diameters\n", summary("two", "results.smallest_gap"));
     assert_between(summary("two", "results.smallest_gap"), -0.01, 1);
 }
@@ -95,10 +98,10 @@ static void falling_disk_agrees_on_fine_meshes(void **state)
 
     (void)state;
     for (int k = 0; k < 2; k++) {
-        assert_ran(
-            plugflow("run cases/falling_disk.lua --quiet --set n=%d --set dt=0.0025 --set stop=0.35 --out %s/fall",
-                     k ? 48 : 32, scratch()),
-            0, NULL);
+        assert_ran(plugflow("run cases/falling_disk.lua --quiet --set formulation=conservative --set n=%d --set "
+                            "dt=0.0025 --set stop=0.35 --out %s/fall",
+                            k ? 48 : 32, scratch()),
+                   0, NULL);
         re[k] = summary("fall", "results.re_max");
         print_message("# falling disk, h = 1/%d cm: Re_max %.3f, geometry %.2g %% of the time\n", k ? 48 : 32,
                       re[k], 100 * summary("fall", "seconds.geometry") / summary("fall", "seconds.total"));
@@ -112,7 +115,9 @@ static void falling_disk_agrees_on_fine_meshes(void **state)
 static void a_settling_sphere_agrees_with_the_experiment(void **state)
 {
     (void)state;
-    assert_ran(plugflow("run cases/settling_sphere.lua --quiet --out %s/settle", scratch()), 0, NULL);
+    assert_ran(
+        plugflow("run cases/settling_sphere.lua --quiet --set formulation=conservative --out %s/settle", scratch()),
+        0, NULL);
     print_message("# settling sphere, E4, 4 cells per diameter: largest speed %.5f m/s, %.4f of the experiment's\n",
                   summary("settle", "results.speed_max"), summary("settle", "results.ratio"));
     assert_between(summary("settle", "results.ratio"), 0.95, 1.05);

@@ -98,8 +98,10 @@ static void the_log_has_energy_and_balance(void **state)
     int n = 0;
 
     (void)state;
-    assert_ran(plugflow("run cases/falling_disk.lua --quiet --set n=8 --set stop=0.1 --out %s/log", scratch()), 0,
-               NULL);
+    assert_ran(plugflow("run cases/falling_disk.lua --quiet --set formulation=conservative --set n=8 --set "
+                        "stop=0.1 --out %s/log",
+                        scratch()),
+               0, NULL);
     snprintf(file, sizeof file, "%s/log/run.jsonl", scratch());
     f = fopen(file, "r");
     assert_non_null(f);

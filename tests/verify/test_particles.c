@@ -22,8 +22,9 @@ static void disk(const char *mode, int n, double largest, double mean)
     for (int k = 0; k < 3; k++) {
         double e;
 
-        assert_ran(plugflow("run cases/fixed_disk.lua --quiet --set mode=%s --set n=%d %s --out %s/disk", mode, n,
-                            place[k], scratch()),
+        assert_ran(plugflow("run cases/fixed_disk.lua --quiet --set formulation=conservative --set mode=%s --set "
+                            "n=%d %s --out %s/disk",
+                            mode, n, place[k], scratch()),
                    0, NULL);
         e = summary("disk", mode[0] == 't' ? "results.force" : "results.torque") - 1;
         print_message("# disk, %s, D/h = %g, place %d: error %.2f %%\n", mode, 0.4 * n, k, 100 * e);
@@ -93,7 +94,9 @@ static void a_disk_in_shear_turns_with_half_the_rate(void **state)
 
     (void)state;
     for (int k = 0; k < 3; k++) {
-        assert_ran(plugflow("run cases/sheared_disk.lua --quiet %s --out %s/shear", place[k], scratch()), 0, NULL);
+        assert_ran(plugflow("run cases/sheared_disk.lua --quiet --set formulation=conservative %s --out %s/shear",
+                            place[k], scratch()),
+                   0, NULL);
         print_message("# disk in shear, D/h = 11, place %d: omega %.4f\n", k, summary("shear", "results.omega"));
         assert_between(summary("shear", "results.omega"), -0.5 * 1.025, -0.5 * 0.975);
     }
@@ -107,8 +110,10 @@ static void a_sphere_in_shear_turns_with_half_the_rate(void **state)
     (void)state;
     for (int k = 0; k < 2; k++) {
         assert_ran(
-            plugflow("run cases/sheared_sphere.lua --quiet --set hold=%s --out %s/shear", hold[k], scratch()), 0,
-            NULL);
+            plugflow(
+                "run cases/sheared_sphere.lua --quiet --set formulation=conservative --set hold=%s --out %s/shear",
+                hold[k], scratch()),
+            0, NULL);
         print_message("# sphere in shear, D/h = 5, hold = %s: omega %.4f\n", hold[k],
                       summary("shear", "results.omega"));
         assert_between(summary("shear", "results.omega"), -0.5 * 1.03, -0.5 * 0.97);
@@ -118,7 +123,9 @@ static void a_sphere_in_shear_turns_with_half_the_rate(void **state)
 static void a_turning_disk_has_its_torque_and_angle(void **state)
 {
     (void)state;
-    assert_ran(plugflow("run cases/rotating_disk.lua --quiet --out %s/turn", scratch()), 0, NULL);
+    assert_ran(
+        plugflow("run cases/rotating_disk.lua --quiet --set formulation=conservative --out %s/turn", scratch()), 0,
+        NULL);
     assert_between(summary("turn", "results.torque"), 0.93, 1.07);
     assert_between(summary("turn", "results.angle"), 0.5 - 1e-12, 0.5 + 1e-12);
 }
@@ -163,7 +170,8 @@ static void bodies_are_of_second_order_in_time(void **state)
 static void a_neutral_body_does_not_notice_gravity(void **state)
 {
     (void)state;
-    assert_ran(plugflow("run cases/neutral.lua --quiet --out %s/neutral", scratch()), 0, NULL);
+    assert_ran(plugflow("run cases/neutral.lua --quiet --set formulation=conservative --out %s/neutral", scratch()),
+               0, NULL);
     assert_between(summary("neutral", "results.relative"), 0, 1e-9);
 }
 
@@ -208,7 +216,8 @@ static void drag_of_a_periodic_array_of_spheres(void **state)
         double e[2];
 
         for (int n = 0; n < 2; n++) {
-            assert_ran(plugflow("run cases/sphere_array.lua --quiet --set n=%d --set phi=%g --out %s/array",
+            assert_ran(plugflow("run cases/sphere_array.lua --quiet --set formulation=conservative --set n=%d "
+                                "--set phi=%g --out %s/array",
                                 n ? 12 : 8, table[i].phi, scratch()),
                        0, NULL);
             e[n] = summary("array", "results.K") / table[i].k - 1;
@@ -255,7 +264,8 @@ static void light_and_heavy_bodies_are_stable_at_one_step(void **state)
 
     (void)state;
     for (int k = 0; k < 5; k++) {
-        assert_ran(plugflow("run cases/falling_disk.lua --quiet --set n=10 --set dt=0.005 --set density=%s --set "
+        assert_ran(plugflow("run cases/falling_disk.lua --quiet --set formulation=conservative --set n=10 --set "
+                            "dt=0.005 --set density=%s --set "
                             "stop=0.05 --out %s/d",
                             density[k], scratch()),
                    0, NULL);
@@ -269,7 +279,8 @@ static void light_and_heavy_bodies_are_stable_at_one_step(void **state)
 static void a_disk_falls_and_rests_above_the_floor(void **state)
 {
     (void)state;
-    assert_ran(plugflow("run cases/falling_disk.lua --quiet --set n=12 --set dt=0.01 --set stop=0.9 --out %s/fall",
+    assert_ran(plugflow("run cases/falling_disk.lua --quiet --set formulation=conservative --set n=12 --set "
+                        "dt=0.01 --set stop=0.9 --out %s/fall",
                         scratch()),
                0, NULL);
     print_message("# falling disk, 12 cells per cm: Re_max %.2f, at rest at y = %.4f\n",
