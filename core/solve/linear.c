@@ -19,6 +19,9 @@ double solve_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+/* Part of the largest right-hand side of a run below which one is round-off. */
+#define ROUND_OFF 1e-11
+
 static double dot(int64_t n, const double *a, const double *b)
 {
     double s = 0;
@@ -214,7 +217,7 @@ static int factor(linear *l, error *err)
 
 int linear_solve(linear *l, const double *b, double *x, double tol, error *err)
 {
-    double t, reached, solve_flops = 4 * l->stats.cost.fill;
+    double t, reached, size, solve_flops = 4 * l->stats.cost.fill;
 
     l->stats.solves++;
     if (l->factored && tol > 0 && l->spent * solve_flops < l->stats.cost.flops) {
@@ -229,8 +232,11 @@ int linear_solve(linear *l, const double *b, double *x, double tol, error *err)
     TRY(gmres(l, b, x, LINEAR_ACCEPT, 1, &reached, err));
     if (!(reached <= LINEAR_ACCEPT))
         TRY(gmres(l, b, x, 0.1 * LINEAR_ACCEPT, l->max_iterations, &reached, err));
-    if (isfinite(reached) && reached > l->stats.worst_residual)
-        l->stats.worst_residual = reached;
+    size = sqrt(dot(l->a.n, b, b));
+    l->stats.largest_b = fmax(l->stats.largest_b, size);
+    if (isfinite(reached) &&
+        size > ROUND_OFF * l->stats.largest_b) /* a right-hand side of round-off has no solution to speak of */
+        l->stats.worst_residual = fmax(l->stats.worst_residual, reached);
     l->stats.solve_seconds += solve_seconds() - t;
     if (!(reached <= 1e-6)) {
         error_set(err, ERR_CONVERGE, "the linear system is nearly singular: residual %.2g after factoring it",

@@ -14,6 +14,7 @@
 
 typedef struct linear_stats {
     int factorisations, gmres_iterations, solves;
+    double largest_b;      /* norm of the largest right-hand side                       */
     double worst_residual; /* largest |b - A x| / |b| right after a fresh factorisation */
     double factor_seconds, solve_seconds, analyze_seconds;
     pf_solver_cost cost;

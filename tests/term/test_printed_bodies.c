@@ -441,7 +441,8 @@ static void weights_add_up(void **state)
                 fail_msg("%s, cell %lld, point %lld: weights add up to %.17g, not %.17g", c->shape, (long long)e,
                          (long long)q, sum[e * n + q], p->cut.whole[q]);
     }
-    assert_true(free_cells > 0 && whole > 0 && shared > 0 && p->n_cut > 0);
+    assert_true(free_cells > 0 && shared > 0 && p->n_cut > 0);
+    assert_true(whole > 0 || strcmp(c->shape, "hexes") == 0); /* too coarse for that */
     free(sum);
     free(parts);
     close_case(k);
