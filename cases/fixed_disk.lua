@@ -24,6 +24,8 @@ term "continuity" {}
 term "momentum" { without = {"convection"} }
 particulate(formulation, formulation == "appendix" and {alpha = alpha} or nil)
 
+if formulation == "appendix" then term "continuity.pressure_smoothing" {} end -- or the pressure inside the disk is arbitrary
+
 boundary "*" { u = field }
 
 particle { shape = disk { radius = R }, density = 1, at = {x0, y0}, motion = "fixed",

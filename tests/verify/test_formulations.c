@@ -17,32 +17,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int ascending(const void *a, const void *b)
-{
-    double d = *(const double *)a - *(const double *)b;
-
-    return d < 0 ? -1 : d > 0;
-}
-
-/* Force that the disk of D/h = 16 gives to the fluid, by what arrives at the walls, in units of the exact one: the
- * median of five places (the system is nearly singular and some solutions are far off). */
-static double printed_force(double alpha)
-{
-    static const double place[] = {0, 0.01, 0.02, 0.013, 0.007};
-    double force[5];
-
-    for (int k = 0; k < 5; k++) {
-        assert_ran(plugflow("run cases/fixed_disk.lua --quiet --set formulation=appendix --set n=40 --set alpha=%g "
-                            "--set x0=%g --out %s/printed",
-                            alpha, place[k], scratch()),
-                   0, NULL);
-        force[k] = summary("printed", "results.force_on_box");
-    }
-    qsort(force, 5, sizeof *force, ascending);
-    return force[2];
-}
-
-/* Values of numerics 3, measured there with another program on other cut cells: hence 0.05. */
+/* Force that the disk of D/h = 16 gives to the fluid, by what arrives at the walls, in units of the exact one.  The
+ * pressure inside the disk, which the printed equations leave open, is smoothed: without that the force scatters,
+ * median 0.005, 0.62, 0.90, 0.95, 1.03 of five places.  Values of numerics 3, by another program on other cut
+ * cells: hence 0.015. */
 static void printed_force_tends_to_the_exact_one(void **state)
 {
     static const double alpha[] = {1, 1e3, 1e4, 1e5, 1e6}, expected[] = {0.005, 0.62, 0.85, 0.96, 1.03};
@@ -50,10 +28,14 @@ static void printed_force_tends_to_the_exact_one(void **state)
 
     (void)state;
     for (int k = 0; k < 5; k++) {
-        force[k] = printed_force(alpha[k]);
+        assert_ran(plugflow("run cases/fixed_disk.lua --quiet --set formulation=appendix --set n=40 --set alpha=%g "
+                            "--out %s/printed",
+                            alpha[k], scratch()),
+                   0, NULL);
+        force[k] = summary("printed", "results.force_on_box");
         print_message("# printed formulation, alpha = %g: force / exact force = %.4f\n", alpha[k], force[k]);
-        assert_between(force[k], expected[k] - 0.05, expected[k] + 0.05);
-        assert_true(k == 0 || k == 4 || fabs(force[k] - 1) < fabs(force[k - 1] - 1));
+        assert_between(force[k], expected[k] - 0.015, expected[k] + 0.015);
+        assert_true(k == 0 || fabs(force[k] - 1) < fabs(force[k - 1] - 1));
     }
 }
 
