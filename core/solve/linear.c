@@ -5,6 +5,7 @@
  * less than new ones, by predicted operations, so that the choice is the same in every run. */
 #include "solve/solve.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,8 +20,8 @@ double solve_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Part of the largest right-hand side of a run below which one is round-off. */
-#define ROUND_OFF 1e-11
+/* Part of the largest right-hand side of a run below which a solution is a correction in the last digits. */
+#define ROUND_OFF 1e-8
 
 static double dot(int64_t n, const double *a, const double *b)
 {
@@ -234,9 +235,9 @@ int linear_solve(linear *l, const double *b, double *x, double tol, error *err)
         TRY(gmres(l, b, x, 0.1 * LINEAR_ACCEPT, l->max_iterations, &reached, err));
     size = sqrt(dot(l->a.n, b, b));
     l->stats.largest_b = fmax(l->stats.largest_b, size);
-    if (isfinite(reached) &&
-        size > ROUND_OFF * l->stats.largest_b) /* a right-hand side of round-off has no solution to speak of */
-        l->stats.worst_residual = fmax(l->stats.worst_residual, reached);
+    if (isfinite(reached)) /* of a right-hand side near round-off only a part */
+        l->stats.worst_residual =
+            fmax(l->stats.worst_residual, reached * fmin(1, size / (ROUND_OFF * l->stats.largest_b + DBL_MIN)));
     l->stats.solve_seconds += solve_seconds() - t;
     if (!(reached <= 1e-6)) {
         error_set(err, ERR_CONVERGE, "the linear system is nearly singular: residual %.2g after factoring it",

@@ -15,7 +15,8 @@
 typedef struct linear_stats {
     int factorisations, gmres_iterations, solves;
     double largest_b;      /* norm of the largest right-hand side                       */
-    double worst_residual; /* largest |b - A x| / |b| right after a fresh factorisation */
+    double worst_residual; /* largest |b - A x| / |b| by fresh factors; of last corrections, small as b is,
+                            * relative to 1e-8 of the largest |b| */
     double factor_seconds, solve_seconds, analyze_seconds;
     pf_solver_cost cost;
 } linear_stats;
