@@ -52,7 +52,7 @@ typedef struct force_output {
 } force_output;
 
 typedef struct problem_time {
-    int unsteady, order;
+    int unsteady, order, geometry_iterations;
     double step, stop, start;
 } problem_time;
 
@@ -142,7 +142,7 @@ typedef struct problem {
     double *cut_basis; /* second-order basis at the points of the cut rule       */
     double h_mean, h_max;
     int coarse_warned;
-    long rootless; /* how often some bad cell had no root */
+    long rootless;                      /* how often some bad cell had no root */
     long n_attach;                      /* how often cells were attached anew                     */
     arena envelope_memory, step_memory; /* until cells are attached anew; until the next cut */
     int n_dirichlet;

@@ -40,6 +40,9 @@ static void read_time(problem *p)
     reader_required(&r, "stop",
                     reader_number(&r, "stop", "time at which the run ends, s", -1e300, 1e300, &t->stop));
     reader_number(&r, "start", "time at which the run starts, s", -1e300, 1e300, &t->start);
+    reader_integer(&r, "geometry_iterations",
+                   "how often bodies are placed anew within a step, with the motion found", 0, 20,
+                   &t->geometry_iterations);
     reader_close(&r);
     if (t->step > 0 && t->stop <= t->start)
         case_wrong(p->c, b, "stop", "time: stop = %g is not after start = %g", t->stop, t->start);

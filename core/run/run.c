@@ -231,6 +231,7 @@ static int unsteady(run *r, const volatile sig_atomic_t *stop, error *err)
     if (!status) {
         s.options = p->newton;
         s.t = p->time.start;
+        s.geometry_iterations = p->time.geometry_iterations;
         s.move = p->n_particle ? problem_move : NULL;
         memcpy(s.x, p->x, (size_t)p->space.n_dof * sizeof *s.x);
         status = march(r, &s, stop, err);

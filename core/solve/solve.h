@@ -154,7 +154,8 @@ typedef int dirichlet_fn(void *ctx, double t, double *x, error *err);
 
 typedef struct stepper {
     newton_system *system;
-    int order; /* 1: BDF1, 2: BDF2 */
+    int order;               /* 1: BDF1, 2: BDF2 */
+    int geometry_iterations; /* how often bodies are placed anew within a step */
     double t, dt_previous;
     int n_history;
     double *x, *before, *history, *save[4]; /* [n_dof] */

@@ -61,10 +61,14 @@ static int step(stepper *p, int order, double dt, int *converged, error *err)
     }
     TRY(p->dirichlet(p->dirichlet_ctx, time.t, p->x, err));
     TRY(move(p, MOVE_REMEMBER, 0, 0, NULL, NULL, err));
-    if (move(p, MOVE_PREDICT, 0, dt, p->save[2], p->x, err))
-        return error_prefix(err, "t = %.6g: ", time.t);
-    TRY(newton_solve(s, &time, &p->options, p->x, &p->report, err));
-    p->newton_iterations += p->report.iterations;
+    for (int k = 0; k <= p->geometry_iterations; k++) { /* from the second on with the motion just found */
+        if (move(p, MOVE_PREDICT, 0, dt, p->save[2], p->x, err))
+            return error_prefix(err, "t = %.6g: ", time.t);
+        TRY(newton_solve(s, &time, &p->options, p->x, &p->report, err));
+        p->newton_iterations += p->report.iterations;
+        if (!p->report.converged)
+            break;
+    }
     *converged = p->report.converged;
     if (!*converged) {
         memcpy(p->x, p->save[2], n * sizeof *p->x);
