@@ -82,11 +82,19 @@ static void print_params(const pf_term *t)
 
 static void print_term(const term_plugin *p, const pf_term *t)
 {
+    static const char *const point_name[] = {"",
+                                             "all cells",
+                                             "outside of bodies",
+                                             "inside of bodies",
+                                             "boundary facets",
+                                             "surfaces of bodies",
+                                             "cells with too little fluid (differences from their roots)",
+                                             "bodies, once each",
+                                             "near pairs of bodies or body and wall (differences)"};
+
     printf("  %s.%s%s\n      weak    %s\n      source  %s\n      points  %s; Jacobian %s%s%s\n", p->d.name, t->name,
            t->flags & PF_OPTIONAL ? " (only if its own line switches it on)" : "", t->doc, t->cite,
-           t->where == PF_FACET   ? "boundary facets"
-           : t->where == PF_FLUID ? "fluid"
-                                  : "all cells",
+           point_name[t->where],
            t->jacobian     ? "by hand"
            : t->residual_c ? "by complex step"
                            : "by differences",
