@@ -17,7 +17,7 @@
 /* A direction serves for lines if the slope along it is at least this part of the whole. */
 #define MONOTONE 0.4
 
-enum { MOST_ROOTS = 16, PROBES = 6, DEPTH_2D = 5, DEPTH_3D = 4 };
+enum { WRONG = 2, MOST_ROOTS = 16, PROBES = 6, DEPTH_2D = 5, DEPTH_3D = 4 };
 
 typedef struct work {
     const mesh *m;
@@ -102,8 +102,8 @@ static double level(const work *w, const double *c)
     return particle_level(w->p, w->rotation, x);
 }
 
-/* Gradient with respect to c, also to x; part[k]: along the line of c_k in space, per length (0 where the line is a
- * point, in the corner of a collapsed box). */
+/* Gradient with respect to c, also to x; part[k]: along the line of c_k in space, per length (NAN where the line is
+ * a point, in the corner of a collapsed box). */
 static void slope(const work *w, const double *c, double *by_c, double *by_x, double *part)
 {
     double xi[3] = {0}, d[3][3], x[3] = {0}, j[3][3] = {{0}};
@@ -123,7 +123,7 @@ static void slope(const work *w, const double *c, double *by_c, double *by_x, do
             by_c[k] += by_x[a] * along;
             speed += along * along;
         }
-        part[k] = speed > 1e-24 * w->size * w->size ? by_c[k] / sqrt(speed) : 0;
+        part[k] = speed > 1e-24 * w->size * w->size ? by_c[k] / sqrt(speed) : NAN;
     }
 }
 
@@ -330,21 +330,42 @@ static void fill(work *w, const box *b, int test)
     }
 }
 
-/* How well a direction serves, over several points: the least part of the slope along it, 0 if that changes sign.
- */
+/* How well a direction serves, over several points: the least part of the slope along it, 0 if it vanishes or
+ * changes its sign somewhere. */
 typedef struct direction {
-    double share;
-    int sign;
+    double share, sum; /* of all points                         */
+    int sign, known;   /* of the slope so far; WRONG: it changes */
 } direction;
 
 static void judge(direction *d, double part, double size)
 {
-    int here = part > 0 ? 1 : -1;
+    int here = part > 0 ? 1 : part < 0 ? -1 : 0;
 
-    if (part == 0) /* a collapsed corner says nothing */
+    if (isnan(part)) /* a collapsed corner says nothing */
         return;
-    d->share = d->sign && d->sign != here ? 0 : fmin(d->share, fabs(part) / size);
-    d->sign = here;
+    if (here && d->sign && d->sign != here)
+        d->sign = WRONG;
+    else if (here)
+        d->sign = here;
+    d->share = d->sign == WRONG || !here ? 0 : fmin(d->known ? d->share : 1, fabs(part) / size);
+    d->sum += fabs(part);
+    d->known = 1;
+}
+
+/* At the last level: a direction in which the level does not change its sense, though it may rest (at an edge). */
+static int last_resort(const direction *by, int dim)
+{
+    int best = -1;
+
+    for (int k = 0; k < dim; k++)
+        if (by[k].sign && by[k].sign != WRONG && (best < 0 || by[k].sum > by[best].sum))
+            best = k;
+    return best;
+}
+
+static double known(double part)
+{
+    return isnan(part) ? 0 : part;
 }
 
 /* Over 3^dim points of the box: the level in the middle, how much it may change from there, the directions. */
@@ -355,7 +376,7 @@ typedef struct survey {
 
 static survey look(const work *w, const box *b)
 {
-    survey s = {.by = {{1, 0}, {1, 0}, {1, 0}}};
+    survey s = {0};
     double most[3] = {0};
 
     for (int q = 0; q < (w->dim == 2 ? 9 : 27); q++) {
@@ -369,7 +390,7 @@ static survey look(const work *w, const box *b)
             s.centre = level(w, c);
         for (int k = 0; k < w->dim; k++) {
             most[k] = fmax(most[k], fabs(g[k]) * (b->high[k] - b->low[k]));
-            judge(&s.by[k], part[k], sqrt(part[0] * part[0] + part[1] * part[1] + part[2] * part[2]));
+            judge(&s.by[k], part[k], hypot(hypot(known(part[0]), known(part[1])), known(part[2])));
         }
     }
     for (int k = 0; k < w->dim; k++)
@@ -385,7 +406,7 @@ static int inner_direction(const work *w, const box *b, int k, double *share)
     double least[2] = {INFINITY, INFINITY};
 
     for (int side = 0; side < 2; side++) {
-        direction by[2] = {{1, 0}, {1, 0}};
+        direction by[2] = {{0}};
         double reach[2] = {0}, centre = 0;
 
         for (int q = 0; q < 9; q++) {
@@ -399,7 +420,7 @@ static int inner_direction(const work *w, const box *b, int k, double *share)
                 centre = level(w, c);
             for (int i = 0; i < 2; i++) {
                 reach[i] = fmax(reach[i], fabs(g[d[i]]) * (b->high[d[i]] - b->low[d[i]]));
-                judge(&by[i], part[d[i]], hypot(part[d[0]], part[d[1]]));
+                judge(&by[i], part[d[i]], hypot(known(part[d[0]]), known(part[d[1]])));
             }
         }
         for (int i = 0; i < 2 && fabs(centre) <= 0.6 * (reach[0] + reach[1]); i++)
@@ -432,10 +453,12 @@ static void integrate(work *w, const box *b, int depth)
         divide(w, b, depth);
         return;
     }
-    if (s.by[k].share == 0) {
+    if (s.by[k].share == 0 && (k = last_resort(s.by, w->dim)) < 0) {
         fill(w, b, 1);
         return;
     }
+    if (w->dim == 3 && j == k)
+        j = (k + 1) % 3;
     if (w->dim == 2)
         sweep(w, b, (double[3]){0}, k, 1 - k, 1);
     else
@@ -487,6 +510,8 @@ int implicit_cell(const mesh *m, int32_t cell, const particle *p, const implicit
     box b = {{0}, {1, 1, 1}};
 
     w.most_depth = m->dim == 2 ? DEPTH_2D : DEPTH_3D;
+    if (!shape_is_smooth(&p->shape)) /* edges are cut off at the last level */
+        w.most_depth += m->dim == 2 ? 3 : 1;
     w.size = m->h[cell];
     w.affine = find_affine(&w);
     particle_rotation(p, w.rotation);

@@ -33,7 +33,7 @@ static void a_misspelt_key_is_named_with_its_line_and_the_nearest_key(void **sta
     assert_case(3, MESH "fluid { density = 1,\n  viscosty = 0.1 }\n" TERMS WALLS,
                 "bad.lua:3: fluid: unknown key \"viscosty\"",
                 "did you mean \"viscosity\" (dynamic viscosity, Pa s)?",
-                "valid keys: density, gravity, reduced_pressure, viscosity");
+                "valid keys: density, gravity, reduced_pressure, region, viscosity");
 }
 
 static void all_mistakes_are_reported_together(void **state)

@@ -122,6 +122,46 @@ static void volume_and_surface_of_smooth_bodies(void **state)
     }
 }
 
+/* Bodies with edges: the surface is all there and closed, in 2D and 3D, turned as it may be. */
+static void surface_of_bodies_with_edges(void **state)
+{
+    static const int kinds[] = {SHAPE_BOX, SHAPE_CYLINDER};
+    error err;
+
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++)
+        for (int k = 0; k < dim - 1; k++)
+            for (int turned = 0; turned < 2; turned++) {
+                particle p = body(dim, kinds[k]);
+                surface_sum s = {.p = &p};
+                const double *h = p.shape.half;
+                double area = dim == 2                ? 4 * (h[0] + h[1])
+                              : kinds[k] == SHAPE_BOX ? 8 * (h[0] * h[1] + h[1] * h[2] + h[2] * h[0])
+                                                      : 2 * M_PI * h[0] * (h[0] + 2 * h[2]);
+                cut_rule r;
+                mesh m;
+
+                if (!turned) {
+                    p.angle = p.q[1] = p.q[3] = 0;
+                    p.q[0] = 1;
+                }
+                make(&m, dim, 0);
+                assert_int_equal(cut_rule_create(&r, m.type, &err), 0);
+                for (int32_t c = 0; c < m.n_cell; c++) {
+                    double w[CUT_MAX_POINTS];
+
+                    cut_cell(&r, &m, c, &p, w, sum_surface, &s);
+                }
+                print_message("# %s %d in %dD%s: area %.1e, closure %.1e\n", "kind", kinds[k], dim,
+                              turned ? ", turned" : "", s.area / area - 1,
+                              (fabs(s.n[0]) + fabs(s.n[1]) + fabs(s.n[2])) / area);
+                assert_true(fabs(s.area / area - 1) < 0.03);
+                assert_true(fabs(s.n[0]) + fabs(s.n[1]) + fabs(s.n[2]) < 0.02 * area);
+                cut_rule_destroy(&r);
+                mesh_destroy(&m);
+            }
+}
+
 static void volume_centroid_and_inertia_are_exact(void **state)
 {
     static const int kinds[] = {SHAPE_ELLIPSOID, SHAPE_BOX, SHAPE_CYLINDER, SHAPE_SUPERELLIPSOID};
@@ -244,6 +284,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(volume_and_surface_of_smooth_bodies),
+        cmocka_unit_test(surface_of_bodies_with_edges),
         cmocka_unit_test(volume_centroid_and_inertia_are_exact),
         cmocka_unit_test(formulas_agree_with_quadrature),
         cmocka_unit_test(small_turns_add_up),
