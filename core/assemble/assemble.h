@@ -36,12 +36,11 @@ typedef struct near_pair {
 } near_pair;
 
 /* Where the bodies are now: points and weights of the classes that follow them.  Weights are of the
- * reference cell, [n][rule->n]. */
+ * reference cell, [n][points of the cut rule]. */
 typedef struct body_points {
     const particle *particle;
     const double (*shift)[3]; /* of attached pairs: from the body to its image there       */
-    const cut_rule *rule;
-    const uint8_t *off; /* [n_cell] not 0: a body covers the cell or a part of it    */
+    const uint8_t *off;       /* [n_cell] not 0: a body covers the cell or a part of it    */
     int64_t n_pair;
     const near_pair *pair;
     int64_t n_solid, n_cut; /* attached pairs (space.h) covered; cells cut by a surface  */

@@ -158,10 +158,8 @@ static void points_of_surface(const assembly *a, const assembly_class *c, int64_
             for (int order = 0; order < 3; order++) {
                 int n_basis = c->order_used[order] ? fe_n_basis(type, order) : 0;
 
-                if (order != 2 && n_basis)
+                if (n_basis)
                     fe_basis(type, order, xi, n, dn);
-                else if (n_basis)
-                    fe_basis(type, 2, xi, n, dn);
                 for (int i = 0; i < n_basis; i++) {
                     w->basis[order][0][i * nq + q][l] = n[i];
                     for (int k = 0; c->grad_used[order] && k < dim; k++)

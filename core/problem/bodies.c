@@ -36,6 +36,15 @@ void problem_hold_particles(problem *p)
     }
 }
 
+particle problem_image(const problem *p, int64_t attached)
+{
+    particle q = p->particle[p->space.attached_particle[attached]];
+
+    for (int i = 0; i < 3; i++)
+        q.x[i] += p->shift[attached][i];
+    return q;
+}
+
 static int is_restricted(const problem *p, int f)
 {
     return p->space.field[f].support == PF_IN_PARTICLES;
@@ -176,10 +185,8 @@ static int cut(problem *p, error *err)
         int inside;
 
         for (; a < s->n_attached && s->attached_particle[a] == k; a++) {
-            particle here = *q;
+            particle here = problem_image(p, a);
 
-            for (int i = 0; i < 3; i++)
-                here.x[i] += p->shift[a][i];
             p->surface.now = (int32_t)a;
             inside = cut_cell(&p->cut, &p->mesh, s->attached_cell[a], &here, p->weight + p->n_covered * p->cut.n,
                               p->has_surface ? fluid_add_surface : NULL, p);
@@ -222,7 +229,12 @@ static void activate(problem *p, double *x)
 {
     space *s = &p->space;
     const fe_cell *c = p->mesh.type;
+    int any = 0;
 
+    for (int f = 0; f < s->n_field; f++)
+        any |= is_restricted(p, f);
+    if (!any)
+        return;
     for (int64_t a = 0; a < s->n_attached; a++)
         for (int i = 0; i < c->n_node; i++)
             p->inside[space_carrier(s, p->mesh.n_cell + a, i)] = 0;
@@ -301,7 +313,6 @@ int problem_cut(problem *p, double *x, error *err)
         TRY(assembly_set_bodies(&p->system.assembly,
                                 &(body_points){.particle = p->particle,
                                                .shift = (const double(*)[3])p->shift,
-                                               .rule = &p->cut,
                                                .off = p->fluid_off,
                                                .n_pair = p->n_pair,
                                                .pair = p->pair,

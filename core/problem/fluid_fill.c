@@ -101,10 +101,8 @@ static void fill_cell(problem *p, double *x, int f, int64_t a)
 {
     const space *s = &p->space;
     int body = s->attached_particle[a];
-    particle here = p->particle[body];
+    particle here = problem_image(p, a);
 
-    for (int k = 0; k < 3; k++)
-        here.x[k] += p->shift[a][k];
     for (int i = 0; i < p->mesh.type->n_node; i++) {
         int32_t node = p->mesh.cell[(int64_t)s->attached_cell[a] * p->mesh.type->n_node + i];
         int64_t d = s->first[f][node];

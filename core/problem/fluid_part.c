@@ -204,12 +204,9 @@ typedef struct candidate {
 /* Unit vector out of the body at the centre of a bad cell. */
 static void outward(const problem *p, int32_t bad, const double *x, double *n)
 {
-    int32_t a = p->covered_by[bad];
-    particle here = p->particle[p->space.attached_particle[a]];
+    particle here = problem_image(p, p->covered_by[bad]);
     double r[3][3], size = 0;
 
-    for (int k = 0; k < 3; k++)
-        here.x[k] += p->shift[a][k];
     particle_rotation(&here, r);
     particle_slope(&here, (const double(*)[3])r, x, n);
     for (int k = 0; k < p->dim; k++)

@@ -174,6 +174,8 @@ int problem_initial(problem *p, error *err);
 /* Attaches cells, cuts them, finds the active set for the places that the bodies have now; zeroes in x
  * what is off. */
 int problem_cut(problem *p, double *x, error *err);
+/* The body of an attached pair, at the place of its image there. */
+particle problem_image(const problem *p, int64_t attached);
 /* Velocity of body k at a place, with unknowns x. */
 void problem_motion(const problem *p, const double *x, int k, const double *at, double *v);
 /* Gives velocity unknowns without fluid the motion of the body that they lie in (fluid_part.c). */

@@ -111,13 +111,12 @@ static int is_inside(const problem *p, int64_t cell, const double *x)
 
     for (int64_t k = 0; k < p->n_covered; k++) {
         int32_t a = p->covered[k];
-        particle here = p->particle[s->attached_particle[a]];
+        particle here;
         double r[3][3];
 
         if (s->attached_cell[a] != cell)
             continue;
-        for (int i = 0; i < 3; i++)
-            here.x[i] += p->shift[a][i];
+        here = problem_image(p, a);
         particle_rotation(&here, r);
         if (particle_level(&here, (const double(*)[3])r, x) < 0)
             return 1;
