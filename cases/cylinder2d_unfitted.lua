@@ -3,7 +3,7 @@
 case "Flow round a cylinder (DFG 2D), unfitted"
 
 local unsteady = param("unsteady", false, "2D-2 instead of 2D-1")
-local dt = param("dt", 0.01, "time step of 2D-2")
+local dt = param("dt", 0.005, "time step of 2D-2")
 local stop = param("stop", 8, "end of 2D-2")
 local n = param("n", 20, "cells across the cylinder")
 local formulation = param("formulation", "sharp", "sharp or conservative")
@@ -27,7 +27,8 @@ local function lines(low, a, b, high, ratio)
 end
 
 mesh  { box = {{0, 0}, {2.2, height}},
-        cells = { lines(0, 0.127, unsteady and 0.6 or 0.317, 2.2, 1.1), lines(0, 0.123, 0.278, height, 1.15) } }
+        cells = unsteady and { lines(0, 0.122, 0.402, 2.2, 1.04), lines(0, 0.098, 0.303, height, 1.15) }
+                or { lines(0, 0.127, 0.317, 2.2, 1.1), lines(0, 0.123, 0.278, height, 1.15) } }
 fluid { density = 1, viscosity = 1e-3 }
 
 term "continuity" {}

@@ -58,6 +58,19 @@ typedef struct body_points {
     const double (*tie_ref)[3]; /* [n_tie][points of a cell] reference coordinates in the root */
 } body_points;
 
+/* Near moving bodies history comes along paths that follow the body, not from the place itself:
+ *
+ *     du/dt = shift u + history - w . grad u,    w the velocity of the path in the sense of the time scheme. */
+typedef struct moving_frame {
+    int stamp;           /* another one whenever bodies or history are others  */
+    const uint8_t *cell; /* [n_cell] 1: there may be points with w != 0 in it */
+    uint32_t fields;     /* bit f: field f has its history along the paths     */
+    const double *u;     /* [n_dof] history at places */
+    void *ctx;
+    /* At point x of a cell: w [dim]; history of each such field, one after the other.  0: w = 0. */
+    int (*at)(void *ctx, int64_t cell, const double *x, double *w, double *history);
+} moving_frame;
+
 /* A term that the case switched on. */
 typedef struct term_use {
     const term_plugin *plugin;
@@ -90,6 +103,7 @@ typedef struct plan_use {
     int in[TERM_MAX_SLOTS];    /* index into input[]                            */
     int out[TERM_MAX_SLOTS];   /* index into test[]                             */
     int trial[TERM_MAX_SLOTS]; /* index into trial[], -1 where no unknown        */
+    int slope[TERM_MAX_SLOTS]; /* of du/dt in the fluid: its gradient there, for the moving frame; else -1 */
 } plan_use;
 
 /* Cells or facets with the same terms on them. */
@@ -126,6 +140,10 @@ typedef struct assembly_class {
     int order_used[3], grad_used[3];
     double data_time;
     int data_ready;
+    int frame_stamp;   /* of the moving frame whose values these are: */
+    int64_t *frame_at; /* [n_batch] where in `frame` those of a batch are, -1: nowhere           */
+    v8 *frame;         /* w [dim][n_q], then of each field of the frame [n_comp][n_q] history + w . grad 0 */
+    arena frame_memory;
     arena item_memory; /* what changes with the bodies                               */
 } assembly_class;
 
@@ -159,7 +177,8 @@ enum {
 typedef struct assembly_state {
     double t, dt, shift;
     const double *x, *dot, *old;
-    uint32_t only; /* not 0: only terms with one of these flags, or of one of these kinds */
+    const moving_frame *frame; /* NULL: all history is at a place */
+    uint32_t only;             /* not 0: only terms with one of these flags, or of one of these kinds */
 } assembly_state;
 
 int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int n_spec, int n_thread, error *err);
@@ -185,6 +204,7 @@ typedef struct workspace {
     v8 *w, *x, *normal, *h; /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
     v8 *basis[3][4];        /* [order][value, d/dx, d/dy, d/dz]: [i][n_q], i padded     */
     v8 *dof;                /* nodal values of one field                               */
+    const v8 *frame;        /* w and history of this batch, see assembly_class; NULL: none */
     v8 *in, *test, *block, *out, *jac, *room;
     v8 *g;         /* one strip of D B_j                                      */
     v8 *vec, *mat; /* element vector and matrix of one field (pair)            */
@@ -197,6 +217,15 @@ typedef struct workspace {
 int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err);
 int plan_workspace(const assembly *a, workspace *w, error *err);
 int points_data_update(assembly *a, assembly_class *c, workspace *w, double t, error *err);
+/* History along moving paths at all points near bodies; once per placement of these (frame.c). */
+int frame_update(const assembly *a, assembly_class *c, workspace *w, const moving_frame *f, error *err);
+/* Of the batch: takes du/dt of a field, of order `order` with n basis functions, over to the moving paths; w->dof:
+ * its nodal values now. */
+void frame_take(const assembly *a, const assembly_class *c, const assembly_state *s, const plan_input *in,
+                workspace *w);
+/* Its part of the Jacobian: d(du/dt) = shift du - w . grad du. */
+void frame_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
+                    size_t ld, const double *velocity, double *block);
 void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
 void points_inputs(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                    workspace *w);

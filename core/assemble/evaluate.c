@@ -49,8 +49,8 @@ static void add_block(const pf_slot *out, const pf_slot *in, int n_trial, double
         }
 }
 
-static int add_jacobian(const assembly_class *c, const plan_use *p, const pf_batch *b, const double *const *in,
-                        int dim, workspace *w)
+static int add_jacobian(const assembly_class *c, const assembly_state *s, const plan_use *p, const pf_batch *b,
+                        const double *const *in, int dim, workspace *w)
 {
     const pf_term *t = p->use->term;
     double *jac[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
@@ -76,6 +76,11 @@ static int add_jacobian(const assembly_class *c, const plan_use *p, const pf_bat
             if (block != SIZE_MAX)
                 add_block(&t->out[o], &t->in[k], c->trial[p->trial[k]].n_comp, factor, jac[o * t->n_in + k], dim,
                           ld, (double *)(w->block + block * (size_t)c->n_q));
+            block = p->slope[k] >= 0 && w->frame ? c->block[p->out[o]][p->slope[k]] : SIZE_MAX;
+            if (block != SIZE_MAX && (s->frame->fields >> c->trial[p->slope[k]].field & 1))
+                frame_jacobian(&t->out[o], &t->in[k], c->trial[p->slope[k]].n_comp, p->use->factor,
+                               jac[o * t->n_in + k], dim, ld, (const double *)w->frame,
+                               (double *)(w->block + block * (size_t)c->n_q));
         }
     return status;
 }
@@ -180,7 +185,7 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
             add_output(c, p, out, dim, w);
             term_now.phase = "Jacobian";
             if (with_matrix)
-                status = add_jacobian(c, p, &b, in, dim, w);
+                status = add_jacobian(c, s, p, &b, in, dim, w);
         }
         term_now = (term_breadcrumb){0};
         if (status) {

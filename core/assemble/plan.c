@@ -27,6 +27,8 @@ static int find_input(assembly_class *c, const space *s, const pf_slot *slot, co
     if (f >= 0) {
         c->order_used[s->field[f].order] = 1;
         c->grad_used[s->field[f].order] |= slot->eval == PF_GRAD || slot->eval == PF_DIV;
+        if (slot->eval == PF_DOT && c->where == PF_FLUID) /* see moving_frame */
+            c->grad_used[s->field[f].order] = 1;
     }
     return c->n_input++;
 }
@@ -67,7 +69,12 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
 
         p->in[k] = find_input(c, s, slot, use->data[k], err);
         p->trial[k] = term_is_unknown(slot) ? find_basis(c, s, c->trial, &c->n_trial, slot, err) : -1;
-        if (p->in[k] < 0 || (term_is_unknown(slot) && p->trial[k] < 0))
+        p->slope[k] = slot->eval == PF_DOT && c->where == PF_FLUID
+                          ? find_basis(c, s, c->trial, &c->n_trial,
+                                       &(pf_slot){.field = slot->field, .shape = slot->shape, .eval = PF_GRAD}, err)
+                          : -1;
+        if (p->in[k] < 0 || (term_is_unknown(slot) && p->trial[k] < 0) ||
+            (slot->eval == PF_DOT && c->where == PF_FLUID && p->slope[k] < 0))
             return err->code;
     }
     for (uint32_t o = 0; o < t->n_out; o++) {
@@ -79,6 +86,8 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
             jac += (size_t)(term_components(t->out[o].shape, dim) * term_components(t->in[k].shape, dim));
             if (p->trial[k] >= 0 && (!t->depends || t->depends[o * t->n_in + k]))
                 c->block[p->out[o]][p->trial[k]] = 0;
+            if (p->slope[k] >= 0 && (!t->depends || t->depends[o * t->n_in + k]))
+                c->block[p->out[o]][p->slope[k]] = 0;
         }
     }
     c->out_size = max_size(c->out_size, out);

@@ -319,6 +319,7 @@ void points_inputs(const assembly *a, const assembly_class *c, const assembly_st
     const double *gathered = NULL;
     int gathered_field = -1;
 
+    w->frame = s->frame && c->frame_at && c->frame_at[batch] >= 0 ? c->frame + c->frame_at[batch] : NULL;
     for (int k = 0; k < c->n_input; k++) {
         const plan_input *in = &c->input[k];
         const double *from = in->eval == PF_DOT ? s->dot : in->eval == PF_OLD ? s->old : s->x;
@@ -338,6 +339,11 @@ void points_inputs(const assembly *a, const assembly_class *c, const assembly_st
         }
         interpolate(w, in, sp->field[in->field].order, c->n_basis[sp->field[in->field].order],
                     sp->field[in->field].n_comp, nq, dim);
+        if (in->eval == PF_DOT && w->frame && (s->frame->fields >> in->field & 1)) {
+            gather(a, c, batch, in->field, s->x, w->dof);
+            gathered = s->x;
+            frame_take(a, c, s, in, w);
+        }
     }
 }
 

@@ -154,6 +154,7 @@ int assembly_run(assembly *a, const assembly_state *s, double *residual, double 
         if (!evaluate_any(a, c, s))
             continue;
         TRY(points_data_update(a, c, &a->work[0], s->t, err));
+        TRY(frame_update(a, c, &a->work[0], s->frame, err));
         for (int i = 0; i < a->n_thread; i++)
             a->work[i].failed_batch = -1;
 #pragma omp parallel for num_threads(c->n_slab) schedule(static, 1)
@@ -190,8 +191,10 @@ void assembly_destroy(assembly *a)
 {
     for (int i = 0; a->work && i < a->n_thread; i++)
         arena_free(&a->work[i].memory);
-    for (int i = 0; i < a->n_class; i++)
+    for (int i = 0; i < a->n_class; i++) {
         arena_free(&a->class_[i].item_memory);
+        arena_free(&a->class_[i].frame_memory);
+    }
     arena_free(&a->memory);
     memset(a, 0, sizeof *a);
 }

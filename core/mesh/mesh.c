@@ -299,3 +299,28 @@ int mesh_make_periodic(mesh *m, int a, int b, error *err)
     m->period[m->n_period++][1] = b;
     return 0;
 }
+
+/* Takes whole periods off x: along each as many as lie between `from` and x, rounded down after adding `half`. */
+static void take_periods(const mesh *m, double *x, const double (*from)[3], double half)
+{
+    for (int k = 0; k < m->n_period; k++) {
+        double along = 0, size = 0;
+
+        for (int i = 0; i < m->dim; i++) {
+            along += (x[i] - (from ? from[k][i] : 0)) * m->period_vector[k][i];
+            size += m->period_vector[k][i] * m->period_vector[k][i];
+        }
+        for (int i = 0; i < m->dim; i++)
+            x[i] -= floor(along / size + half) * m->period_vector[k][i];
+    }
+}
+
+void mesh_wrap(const mesh *m, double *x)
+{
+    take_periods(m, x, m->period_at, 0);
+}
+
+void mesh_nearest(const mesh *m, double *d)
+{
+    take_periods(m, d, NULL, 0.5);
+}

@@ -56,6 +56,10 @@ int mesh_measure(mesh *m, error *err);
 
 /* Identifies the nodes of boundaries a and b, which must match under a translation. */
 int mesh_make_periodic(mesh *m, int a, int b, error *err);
+/* Brings a point, by whole periods, to between the two boundaries of each; a difference of points, to the shortest.
+ */
+void mesh_wrap(const mesh *m, double *x);
+void mesh_nearest(const mesh *m, double *d);
 
 /* Isoparametric mapping of a cell at a point with second-order basis n, dn: place x, Jacobian matrix
  * j[a][b] = dx_a / dxi_b (identity in unused directions); returns its determinant. */

@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Margin of the attached cells, in sizes of a cell; the body may move by it less one cell's reach. */
-#define MARGIN 1.0
+#define MARGIN 1.07 /* no round number: bodies often lie along the lines of the mesh */
 
 int64_t problem_particle_dof(const problem *p, int k, int shape)
 {
@@ -353,23 +353,6 @@ static void list_images(problem *p)
     }
 }
 
-/* A body that left through a periodic boundary comes in again on the other side. */
-static void wrap(const problem *p, particle *q)
-{
-    const mesh *m = &p->mesh;
-
-    for (int k = 0; k < m->n_period; k++) {
-        double along = 0, size = 0;
-
-        for (int i = 0; i < p->dim; i++) {
-            along += (q->x[i] - m->period_at[k][i]) * m->period_vector[k][i];
-            size += m->period_vector[k][i] * m->period_vector[k][i];
-        }
-        for (int i = 0; i < p->dim; i++)
-            q->x[i] -= floor(along / size) * m->period_vector[k][i];
-    }
-}
-
 int problem_make_particles(problem *p, error *err)
 {
     if (p->n_particle == 0)
@@ -389,8 +372,10 @@ int problem_make_particles(problem *p, error *err)
     TRY(fluid_create(p, err));
     TRY(cell_grid_create(&p->grid, &p->mesh, err));
     ARENA_NEW(&p->memory, p->envelope, 3 * p->n_particle, err);
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 3; i++)
         ARENA_NEW(&p->memory, p->remembered[i], p->n_particle, err);
+    ARENA_NEW(&p->memory, p->paths.body, p->n_particle * p->n_image, err);
+    ARENA_NEW(&p->memory, p->paths.cell, p->mesh.n_cell, err);
     TRY(whole_norms(p, err));
     TRY(problem_cut(p, p->x, err));
     warn_resolution(p);
@@ -410,6 +395,10 @@ int problem_move(void *problem_, enum move what, int slot, double dt, const doub
             p->remembered[slot][k] = *q;
             continue;
         }
+        if (what == MOVE_KEEP) {
+            p->remembered[2][k] = p->remembered[slot][k];
+            continue;
+        }
         *q = p->remembered[slot][k];
         if (what == MOVE_RESTORE || q->motion == PARTICLE_FIXED)
             continue;
@@ -418,7 +407,7 @@ int problem_move(void *problem_, enum move what, int slot, double dt, const doub
         for (int i = 0; w >= 0 && i < (p->dim == 2 ? 1 : 3); i++)
             turn[p->dim == 2 ? 2 : i] = 0.5 * dt * (u0[w + i] + u1[w + i]);
         particle_turn(q, turn);
-        wrap(p, q);
+        mesh_wrap(&p->mesh, q->x); /* one that left through a periodic boundary comes in on the other side */
     }
     if (what == MOVE_PLACE)
         problem_fill(p, u1);

@@ -37,6 +37,21 @@ static int grow(void **list, int64_t n, int64_t *room, size_t size, error *err)
 
 /* --- weights --- */
 
+/* Enters a cell, with the weights of all of it unless a body covers it (fluid_off = 2). */
+static int enter(problem *p, int32_t cell, int64_t attached, error *err)
+{
+    TRY(grow((void **)&p->off_cell, p->n_off, &p->off_room, sizeof *p->off_cell, err));
+    p->off_cell[p->n_off++] = cell;
+    p->covered_by[cell] = (int32_t)attached;
+    if (p->fluid_off[cell])
+        return 0;
+    p->fluid_off[cell] = 1;
+    p->cut_of[cell] = (int32_t)p->n_cut;
+    p->cut_cell[p->n_cut] = cell;
+    memcpy(p->cut_weight + p->n_cut++ * p->cut.n, p->cut.whole, (size_t)p->cut.n * sizeof *p->cut_weight);
+    return 0;
+}
+
 int fluid_weights(problem *p, error *err)
 {
     const space *s = &p->space;
@@ -51,20 +66,15 @@ int fluid_weights(problem *p, error *err)
     for (int64_t k = 0; k < p->n_covered; k++) {
         int32_t e = s->attached_cell[p->covered[k]];
 
-        TRY(grow((void **)&p->off_cell, p->n_off, &p->off_room, sizeof *p->off_cell, err));
-        p->off_cell[p->n_off++] = e;
-        p->covered_by[e] = p->covered[k];
-        if (p->fluid_off[e] == 2)
-            continue;
-        if (!p->fluid_off[e]) {
-            p->fluid_off[e] = 1;
-            p->cut_of[e] = (int32_t)p->n_cut;
-            p->cut_cell[p->n_cut] = e;
-            memcpy(p->cut_weight + p->n_cut++ * n, p->cut.whole, (size_t)n * sizeof *p->cut_weight);
-        }
-        for (int q = 0; q < n; q++)
+        TRY(enter(p, e, p->covered[k], err));
+        for (int q = 0; p->fluid_off[e] == 1 && q < n; q++)
             p->cut_weight[p->cut_of[e] * n + q] -= p->weight[k * n + q];
     }
+    /* The other cells near bodies get the same points: a body that touches a cell must not matter by their number.
+     */
+    for (int64_t a = 0; a < s->n_attached; a++)
+        if (!p->fluid_off[s->attached_cell[a]])
+            TRY(enter(p, s->attached_cell[a], a, err));
     return 0;
 }
 

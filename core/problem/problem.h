@@ -67,6 +67,25 @@ typedef struct problem_output {
     const case_block *block;
 } problem_output;
 
+/* An image of a body, now and at the levels of history (moving_frame.c). */
+typedef struct moving_body {
+    particle here;
+    int moves;
+    double axes[3][3];    /* columns: the body's axes now  */
+    double way[2][3];     /* of its centre since then */
+    double then[2][3][3]; /* its axes then */
+} moving_body;
+
+typedef struct body_paths {
+    moving_frame frame;
+    int levels;
+    double c[2];        /* coefficients of the time scheme            */
+    const double *u[2]; /* unknowns of the levels                       */
+    int n;
+    moving_body *body; /* [n_particle * n_image] */
+    uint8_t *cell;     /* [n_cell] near one that moves             */
+} body_paths;
+
 /* Pieces of surface in cells, SURFACE_POINTS points each (see body_points). */
 typedef struct surface_list {
     int64_t n, room;
@@ -104,7 +123,7 @@ typedef struct problem {
     boundary_line *line; /* [PROBLEM_MAX_LINES] */
     int n_particle;
     particle *particle;
-    particle *remembered[2]; /* [n_particle] places to come back to                    */
+    particle *remembered[3]; /* [n_particle] places to come back to                    */
     cell_grid grid;
     cut_rule cut;
     int n_image;           /* images of a body by the periods of the mesh: 1, 3, 9, 27   */
@@ -128,6 +147,7 @@ typedef struct problem {
     int has_surface, has_ties, any_fluid_only;
     int fluid_only[SPACE_MAX_FIELDS]; /* fields with equations in the fluid only              */
     surface_list surface;
+    body_paths paths;
     tie_list tie;
     int32_t *filled, n_fill; /* [n_carrier] the last round that filled the node         */
     int32_t *near_cell;      /* room for a search                                       */
@@ -183,7 +203,9 @@ void problem_fill(problem *p, double *x);
 /* Points of the part of a cell where a field has a meaning: the whole cell, or what is outside of the bodies for a
  * field of the fluid only; returns `whole`, or `own` filled. */
 const fe_rule *problem_points(const problem *p, int field, int64_t cell, const fe_rule *whole, fe_rule *own);
-/* The stepper's hook (solve.h). */
+/* The stepper's hooks (solve.h). */
+const moving_frame *problem_frame(void *problem, int levels, const double *c, const double *const *u,
+                                  const double *history);
 int problem_move(void *problem, enum move what, int slot, double dt, const double *u0, double *u1, error *err);
 /* Unknowns of a particle: first dof of the field of this shape (PF_VECTOR, PF_SPIN), or -1. */
 int64_t problem_particle_dof(const problem *p, int k, int shape);

@@ -233,6 +233,7 @@ static int unsteady(run *r, const volatile sig_atomic_t *stop, error *err)
         s.t = p->time.start;
         s.geometry_iterations = p->time.geometry_iterations;
         s.move = p->n_particle ? problem_move : NULL;
+        s.frame = p->any_fluid_only ? problem_frame : NULL;
         memcpy(s.x, p->x, (size_t)p->space.n_dof * sizeof *s.x);
         status = march(r, &s, stop, err);
         r->result->last_newton = s.report.iterations;

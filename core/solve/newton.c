@@ -53,6 +53,7 @@ static int evaluate(newton_system *s, const newton_time *time, const double *x, 
                          .x = x,
                          .dot = s->work,
                          .old = time->old,
+                         .frame = time->frame,
                          .only = time->only};
     double start = solve_seconds();
     int status;

@@ -118,6 +118,7 @@ void system_destroy(newton_system *s);
 typedef struct newton_time {
     double t, dt, shift;
     const double *history, *old; /* NULL: steady */
+    const moving_frame *frame;   /* NULL: none   */
     uint32_t only;               /* not 0: terms with one of these flags only */
 } newton_time;
 
@@ -146,9 +147,14 @@ int continuation_solve(newton_system *s, continuation *c, const newton_options *
 /* --- time (time.c) --- */
 
 /* Moving bodies: what the stepper asks for.  Slots 0 and 1 hold places to come back to. */
-enum move { MOVE_REMEMBER, MOVE_RESTORE, MOVE_PREDICT, MOVE_PLACE };
+enum move { MOVE_REMEMBER, MOVE_RESTORE, MOVE_PREDICT, MOVE_PLACE, MOVE_KEEP };
 /* Places = remembered + dt/2 (u0 + u1); PREDICT also cuts the cells anew and zeroes in u1 what is off. */
 typedef int move_fn(void *ctx, enum move what, int slot, double dt, const double *u0, double *u1, error *err);
+
+/* Paths that history comes along near bodies: history = sum over levels of c[l] u[l], level 0 when bodies were at
+ * the places of slot 0, level 1 at those that MOVE_KEEP kept.  NULL: all history stays at its place. */
+typedef const moving_frame *frame_fn(void *ctx, int levels, const double *c, const double *const *u,
+                                     const double *history);
 
 typedef int dirichlet_fn(void *ctx, double t, double *x, error *err);
 
@@ -164,6 +170,7 @@ typedef struct stepper {
     dirichlet_fn *dirichlet;
     void *dirichlet_ctx;
     move_fn *move;           /* NULL: nothing moves */
+    frame_fn *frame;         /* NULL: no moving frame */
     struct newton_time last; /* of the last step, with its history */
     newton_report report;
     int newton_iterations, n_steps, n_halved;

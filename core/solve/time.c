@@ -50,12 +50,12 @@ static int step(stepper *p, int order, double dt, int *converged, error *err)
     size_t n = (size_t)s->space->n_dof;
     double w = order == 2 ? dt / p->dt_previous : 0; /* at most 2, see advance */
     newton_time time = {.t = p->t + dt, .dt = dt, .history = p->history, .old = p->save[2]};
-    double c1 = order == 2 ? -(1 + w) / dt : -1 / dt, c2 = order == 2 ? w * w / (1 + w) / dt : 0;
+    double c[2] = {order == 2 ? -(1 + w) / dt : -1 / dt, order == 2 ? w * w / (1 + w) / dt : 0};
 
     time.shift = order == 2 ? (1 + 2 * w) / (1 + w) / dt : 1 / dt;
     memcpy(p->save[2], p->x, n * sizeof *p->x);
     for (size_t i = 0; i < n; i++) {
-        p->history[i] = c1 * p->x[i] + c2 * p->before[i];
+        p->history[i] = c[0] * p->x[i] + c[1] * p->before[i];
         if (order == 2) /* start from the extrapolation */
             p->x[i] += w * (p->x[i] - p->before[i]);
     }
@@ -64,6 +64,9 @@ static int step(stepper *p, int order, double dt, int *converged, error *err)
     for (int k = 0; k <= p->geometry_iterations; k++) { /* from the second on with the motion just found */
         if (move(p, MOVE_PREDICT, 0, dt, p->save[2], p->x, err))
             return error_prefix(err, "t = %.6g: ", time.t);
+        if (p->frame)
+            time.frame =
+                p->frame(p->dirichlet_ctx, order, c, (const double *[]){p->save[2], p->before}, p->history);
         TRY(newton_solve(s, &time, &p->options, p->x, &p->report, err));
         p->newton_iterations += p->report.iterations;
         if (!p->report.converged)
@@ -76,6 +79,7 @@ static int step(stepper *p, int order, double dt, int *converged, error *err)
     }
     TRY(move(p, MOVE_PLACE, 0, dt, p->save[2], p->x, err));
     memcpy(p->before, p->save[2], n * sizeof *p->x);
+    TRY(move(p, MOVE_KEEP, 0, 0, NULL, NULL, err));
     memcpy(p->save[2], p->x, n * sizeof *p->x);
     gauge_zero_mean(s, p->save[2]);
     time.old = p->before;
@@ -111,6 +115,7 @@ static int start(stepper *p, double dt, int *converged, error *err)
         p->residual[i] = 2 * p->residual[i] - p->save[3][i];
     }
     p->t = *converged ? t + dt : t;
+    TRY(move(p, MOVE_KEEP, 1, 0, NULL, NULL, err));
     TRY(move(p, *converged ? MOVE_PLACE : MOVE_RESTORE, 1, dt, p->save[0], p->x, err));
     p->dt_previous = dt;
     p->n_history = *converged ? 1 : 0;

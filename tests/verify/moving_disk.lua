@@ -9,11 +9,13 @@ local k = param("k", 10, "rho h^2 / (mu dt)")
 local steps = math.max(6, math.min(24, math.floor(0.2 / (cfl / n))))
 local formulation = param("formulation", "sharp", "sharp or conservative")
 local scheme = param("scheme", "bdf1", "bdf1 or bdf2")
+local exact = param("exact", true, "")
+local shift = param("shift", 0, "cells that the start is shifted by")
 local R, h = 0.2, 1 / n
 local dt = 0.01
 local rho = k * dt / h ^ 2
 local W = { 0.95 * cfl * h / dt, 0.31 * cfl * h / dt }
-local x0, y0 = -0.5 * W[1] * dt * steps, -0.5 * W[2] * dt * steps
+local x0, y0 = -0.5 * W[1] * dt * steps + shift * h, -0.5 * W[2] * dt * steps + 0.37 * shift * h
 
 local function field(x, y) -- less its value on the surface of a disk that moves
   local r2 = x * x + y * y
@@ -32,6 +34,12 @@ end
 local function force(x, y, t)
   local X, Y = x - x0 - W[1] * t, y - y0 - W[2] * t
   if X * X + Y * Y < 0.1 * R * R then return 0, 0 end
+  if exact then
+    local e = 1e-3 * dt
+    local a, b = velocity(x, y, t + e)
+    local c, d = velocity(x, y, t - e)
+    return rho * (a - c) / (2 * e), rho * (b - d) / (2 * e)
+  end
   local a, b = velocity(x, y, t)
   local c, d = velocity(x, y, t - dt)
   if scheme == "bdf1" then return rho * (a - c) / dt, rho * (b - d) / dt end

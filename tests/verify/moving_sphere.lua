@@ -17,12 +17,14 @@ local function velocity(x, y, z, t)
   return W[1] - a * y, W[2] + a * x, 0
 end
 
-local function force(x, y, z, t) -- inside the sphere it does not count
+-- rho du/dt; inside the sphere it does not count
+local function force(x, y, z, t)
   local X, Y, Z = x - x0 - W[1] * t, y - y0 - W[2] * t, z - z0
   if X * X + Y * Y + Z * Z < 0.1 * R * R then return 0, 0, 0 end
-  local a, b = velocity(x, y, z, t)
-  local c, d = velocity(x, y, z, t - dt)
-  return rho * (a - c) / dt, rho * (b - d) / dt, 0
+  local e = 1e-3 * dt
+  local a, b = velocity(x, y, z, t + e)
+  local c, d = velocity(x, y, z, t - e)
+  return rho * (a - c) / (2 * e), rho * (b - d) / (2 * e), 0
 end
 
 mesh  { box = {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, cells = {n, n, n} }
@@ -37,7 +39,7 @@ initial { u = velocity }
 
 particle { shape = sphere { radius = R }, density = 1, at = {x0, y0, z0}, motion = "prescribed", velocity = W, spin = {0, 0, 1} }
 
-time { scheme = "bdf1", step = dt, stop = steps * dt }
+time { scheme = "bdf2", step = dt, stop = steps * dt }
 
 results(function(r)
   local list, most = r.series["p0.tz"], 0

@@ -1,0 +1,288 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * History near bodies that move.  At a place that a body has just left there was no fluid before: so near a body
+ * du/dt is taken along a path that follows the body (arbitrary Lagrangian-Eulerian),
+ *
+ *     du/dt = c_0 u + sum_k c_k u^k(x - s d_k) - w . grad u,      w = -sum_k c_k s d_k,
+ *
+ * d_k(x): how far the point of the body that is at x now has come since then; s(x) = 1 at its surface, 0 at a
+ * distance of REACH cells and at other bodies; c_k: coefficients of the time scheme, c_0 + sum_k c_k = 0.  Any path
+ * through x is right; this one does not leave the fluid, and what a body carries with it is steady along it. */
+#include "problem/problem.h"
+
+#include "space/locate.h"
+
+#include <math.h>
+#include <string.h>
+
+#define REACH 6    /* cells */
+#define OUT   0.02 /* cells: far enough from a surface to be in a cell with fluid */
+
+static double away(const moving_body *b, const double *x)
+{
+    double d = 0;
+
+    for (int k = 0; k < b->here.shape.dim; k++)
+        d += (x[k] - b->here.x[k]) * (x[k] - b->here.x[k]);
+    return sqrt(d) - b->here.shape.radius;
+}
+
+/* Distance from a body, to first order (level over its slope); 0 inside. */
+static double distance(const moving_body *b, const double *x)
+{
+    double g[3] = {0}, size = 0, level = particle_level(&b->here, (const double(*)[3])b->axes, x);
+
+    if (level <= 0)
+        return 0;
+    particle_slope(&b->here, (const double(*)[3])b->axes, x, g);
+    for (int k = 0; k < b->here.shape.dim; k++)
+        size += g[k] * g[k];
+    return level / sqrt(size);
+}
+
+/* Share of a body in the path through x: less with the distance, none at other bodies. */
+static double share(const body_paths *p, const moving_body *b, const double *x, double reach)
+{
+    double d = away(b, x) < reach ? distance(b, x) : INFINITY, s = d / reach;
+
+    if (s >= 1)
+        return 0;
+    s = 1 - s * s * (3 - 2 * s);
+    for (const moving_body *o = p->body; o < p->body + p->n; o++)
+        if (o != b && away(o, x) < d + reach) {
+            double e = distance(o, x);
+
+            s *= e > 0 ? e / (e + d) : d > 0 ? 0 : 0.5;
+        }
+    return s;
+}
+
+/* How far the point of a body that is at x now has come since level l. */
+static void travelled(const moving_body *b, int l, const double *x, double *d)
+{
+    int dim = b->here.shape.dim;
+    double own[3] = {0};
+
+    for (int i = 0; i < dim; i++)
+        for (int k = 0; k < dim; k++)
+            own[i] += b->axes[k][i] * (x[k] - b->here.x[k]);
+    for (int k = 0; k < dim; k++) {
+        d[k] = b->way[l][k] + x[k] - b->here.x[k];
+        for (int i = 0; i < dim; i++)
+            d[k] -= b->then[l][k][i] * own[i];
+    }
+}
+
+/* Cell at x, and where in it; -1: none. */
+static located locate(problem *p, const double *x)
+{
+    located l = {.cell = -1};
+    double at[3] = {x[0], x[1], x[2]};
+    int64_t n;
+
+    mesh_wrap(&p->mesh, at);
+    n = cell_grid_ball(&p->grid, at, 1e-9 * p->h_mean, p->near_cell);
+    for (int64_t i = 0; i < n && l.cell < 0; i++)
+        if (locate_in_cell(&p->mesh, p->near_cell[i], at, l.xi) > 0)
+            l.cell = p->near_cell[i];
+    return l;
+}
+
+/* The point of the surface that the level's gradient leads to from a point below it, and OUT cells out from there;
+ * 0 if there is none within two cells. */
+static int find_surface(const moving_body *b, const double *x, double h, double *at)
+{
+    memcpy(at, x, 3 * sizeof *at);
+    for (int i = 0; i < 30; i++) {
+        double level = particle_level(&b->here, (const double(*)[3])b->axes, at), g[3] = {0}, size = 0, way = 0;
+
+        particle_slope(&b->here, (const double(*)[3])b->axes, at, g);
+        for (int k = 0; k < b->here.shape.dim; k++)
+            size += g[k] * g[k];
+        if (!(size > 0))
+            return 0;
+        for (int k = 0; k < b->here.shape.dim; k++) {
+            at[k] -= level * g[k] / size;
+            way += (at[k] - x[k]) * (at[k] - x[k]);
+        }
+        if (!(way < 4 * h * h))
+            return 0;
+        if (fabs(level) < 1e-10) {
+            for (int k = 0; k < b->here.shape.dim; k++)
+                at[k] += OUT * h * g[k] / sqrt(size);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Where the path through x was at each level: x - way; 0: it rests. */
+static int find_path(const body_paths *t, const double *x, double reach, double way[2][3])
+{
+    int any = 0;
+
+    memset(way, 0, 6 * sizeof way[0][0]);
+    for (const moving_body *b = t->body; b < t->body + t->n; b++) {
+        double s = b->moves ? share(t, b, x, reach) : 0, d[3];
+
+        for (int l = 0; s > 0 && l < t->levels; l++) {
+            travelled(b, l, x, d);
+            for (int k = 0; k < b->here.shape.dim; k++)
+                way[l][k] += s * d[k];
+        }
+        any |= s > 0;
+    }
+    return any;
+}
+
+/* Cells where a path through `from` was; one that leaves the mesh is shortened.  0: it rests. */
+static int locate_path(problem *p, const double *from, double way[2][3], located *foot)
+{
+    for (int cut = 0; cut < 5; cut++) {
+        int outside = 0;
+
+        for (int l = 0; l < p->paths.levels; l++) {
+            double at[3] = {from[0] - way[l][0], from[1] - way[l][1], from[2] - way[l][2]};
+
+            foot[l] = locate(p, at);
+            outside |= foot[l].cell < 0;
+        }
+        if (!outside)
+            return 1;
+        for (int l = 0; l < p->paths.levels; l++)
+            for (int k = 0; k < p->dim; k++)
+                way[l][k] *= 0.5;
+    }
+    return 0;
+}
+
+/* sum_k c_k u^k at the feet, continued by `off` to first order. */
+static void history_of(const problem *p, int f, const located *foot, const double off[2][3], double *history)
+{
+    const body_paths *t = &p->paths;
+    int n = p->space.field[f].n_comp;
+
+    memset(history, 0, (size_t)n * sizeof *history);
+    for (int l = 0; l < t->levels; l++) {
+        double v[VALUE_MAX], g[3 * VALUE_MAX] = {0};
+
+        locate_value(&p->space, &foot[l], f, t->u[l], v, off ? g : NULL);
+        for (int a = 0; a < n; a++) {
+            history[a] += t->c[l] * v[a];
+            for (int k = 0; off && k < p->dim; k++)
+                history[a] += t->c[l] * g[a * p->dim + k] * off[l][k];
+        }
+    }
+}
+
+/* See moving_frame.  A cut cell has points below the surface, too: what they need is the fluid beside it, continued
+ * to first order, whatever was in the cells there. */
+static int path_at(void *problem_, int64_t cell, const double *x, double *w, double *history)
+{
+    problem *p = problem_;
+    const body_paths *t = &p->paths;
+    const moving_body *in = NULL;
+    double way[2][3], from[3] = {x[0], x[1], x[2]}, way_from[2][3], off[2][3] = {{0}}, h = p->mesh.h[cell];
+    located foot[2];
+
+    if (!t->cell[cell] || !find_path(t, x, REACH * h, way))
+        return 0;
+    memcpy(way_from, way, sizeof way);
+    for (const moving_body *b = t->body; b < t->body + t->n && !in; b++)
+        if (b->moves && away(b, x) < 0 && distance(b, x) == 0 && find_surface(b, x, h, from))
+            in = b;
+    for (int l = 0; in && l < t->levels; l++)
+        travelled(in, l, from, way_from[l]);
+    if (!locate_path(p, from, way_from, foot))
+        return 0;
+    for (int l = 0; l < t->levels; l++)
+        for (int k = 0; k < p->dim; k++) {
+            if (!in)
+                way[l][k] = way_from[l][k];
+            off[l][k] = x[k] - way[l][k] - from[k] + way_from[l][k];
+        }
+    for (int k = 0; k < p->dim; k++) {
+        w[k] = 0;
+        for (int l = 0; l < t->levels; l++)
+            w[k] -= t->c[l] * way[l][k];
+    }
+    for (int f = 0; f < p->space.n_field; f++)
+        if (t->frame.fields >> f & 1) {
+            history_of(p, f, foot, in ? (const double(*)[3])off : NULL, history);
+            history += p->space.field[f].n_comp;
+        }
+    return 1;
+}
+
+/* Fields that the paths matter to: those of the fluid only, with du/dt in some term. */
+static uint32_t find_fields(const problem *p)
+{
+    uint32_t found = 0;
+
+    for (int i = 0; i < p->n_use; i++)
+        for (uint32_t k = 0; k < p->use[i].term->n_in; k++) {
+            const pf_slot *slot = &p->use[i].term->in[k];
+            int f = slot->eval == PF_DOT ? space_find_field(&p->space, slot->field) : -1;
+
+            if (f >= 0 && p->space.field[f].order > 0 && p->fluid_only[f])
+                found |= 1u << f;
+        }
+    return found;
+}
+
+/* The images of the bodies, now and then. */
+static void place(problem *p, int levels)
+{
+    body_paths *t = &p->paths;
+
+    t->n = 0;
+    for (int k = 0; k < p->n_particle; k++)
+        for (int j = 0; j < p->n_image; j++) {
+            moving_body *b = &t->body[t->n++];
+
+            *b = (moving_body){.here = p->particle[k], .moves = p->particle[k].motion != PARTICLE_FIXED};
+            particle_rotation(&b->here, b->axes);
+            for (int l = 0; l < levels; l++) {
+                const particle *then = &p->remembered[l ? 2 : 0][k];
+
+                particle_rotation(then, b->then[l]);
+                for (int i = 0; i < p->dim; i++)
+                    b->way[l][i] = b->here.x[i] - then->x[i];
+                mesh_nearest(&p->mesh, b->way[l]); /* it may have come in again on the other side */
+            }
+            for (int i = 0; i < 3; i++)
+                b->here.x[i] += p->image[j][i];
+        }
+}
+
+const moving_frame *problem_frame(void *problem_, int levels, const double *c, const double *const *u,
+                                  const double *history)
+{
+    problem *p = problem_;
+    body_paths *t = &p->paths;
+    int any = 0;
+
+    place(p, levels);
+    memset(t->cell, 0, (size_t)p->mesh.n_cell);
+    for (int i = 0; i < t->n; i++) {
+        const particle *q = &t->body[i].here;
+        int64_t n =
+            t->body[i].moves ? cell_grid_ball(&p->grid, q->x, q->shape.radius + REACH * p->h_max, p->near_cell) : 0;
+
+        for (int64_t k = 0; k < n; k++)
+            t->cell[p->near_cell[k]] = 1;
+        any |= n > 0;
+    }
+    t->levels = levels;
+    for (int l = 0; l < levels; l++) {
+        t->c[l] = c[l];
+        t->u[l] = u[l];
+    }
+    t->frame.fields = find_fields(p);
+    t->frame.stamp++;
+    t->frame.cell = t->cell;
+    t->frame.u = history;
+    t->frame.ctx = p;
+    t->frame.at = path_at;
+    return any && t->frame.fields ? &t->frame : NULL;
+}
