@@ -3,9 +3,8 @@
  * No position at which sharp bodies degrade: at 500 random places of a disk and of a sphere in their exact flows
  * the symmetric part of the velocity block is positive definite (sparse Cholesky), the linear system is solved to
  * 1e-10, and the force has no outlier. */
+#include "support/opened.h"
 #include "support/program.h"
-
-#include "problem/problem.h"
 
 #include <cholmod.h>
 
@@ -93,37 +92,33 @@ static double smallest_eigenvalue(cholmod_sparse *a, cholmod_common *c)
 static outcome at_position(const char *file, const char *const *sets, int n_set, double unit, cholmod_common *c)
 {
     error err = {0};
-    case_file k = {0};
-    registry r = {0};
-    problem p = {0};
+    opened *k = open_case(file, sets, n_set);
+    problem *p = &k->p;
     outcome o = {0};
     newton_report report;
     cholmod_sparse *a;
     int64_t u;
 
-    if (case_load(&k, file, sets, n_set, &err) || registry_create(&r, NULL, 0, &err) ||
-        problem_create(&p, &k, &r, 2, &err) || problem_initial(&p, &err) || problem_cut(&p, p.x, &err))
+    if (problem_initial(p, &err) || problem_cut(p, p->x, &err))
         fail_msg("%s", err.text);
-    if (newton_solve(&p.system, &(newton_time){0}, &p.newton, p.x, &report, &err) || !report.converged)
+    if (newton_solve(&p->system, &(newton_time){0}, &p->newton, p->x, &report, &err) || !report.converged)
         fail_msg("%s %s: %s", sets[n_set - 2], sets[n_set - 1], report.why);
-    o.residual = p.system.linear.stats.worst_residual;
-    if (assembly_run(&p.system.assembly,
-                     &(assembly_state){.x = p.x, .dot = p.system.work, .old = p.x, .only = PF_FLUID_FORCE},
-                     p.system.residual, p.system.linear.value, 0, &err))
+    o.residual = p->system.linear.stats.worst_residual;
+    if (assembly_run(&p->system.assembly,
+                     &(assembly_state){.x = p->x, .dot = p->system.work, .old = p->x, .only = PF_FLUID_FORCE},
+                     p->system.residual, p->system.linear.value, 0, &err))
         fail_msg("%s", err.text);
-    u = problem_particle_dof(&p, 0, PF_VECTOR);
-    o.force = p.system.residual[u] / unit;
-    memset(p.system.work, 0, (size_t)p.space.n_dof * sizeof(double));
-    if (assembly_run(&p.system.assembly, &(assembly_state){.x = p.x, .dot = p.system.work, .old = p.x},
-                     p.system.residual, p.system.linear.value, 0, &err))
+    u = problem_particle_dof(p, 0, PF_VECTOR);
+    o.force = p->system.residual[u] / unit;
+    memset(p->system.work, 0, (size_t)p->space.n_dof * sizeof(double));
+    if (assembly_run(&p->system.assembly, &(assembly_state){.x = p->x, .dot = p->system.work, .old = p->x},
+                     p->system.residual, p->system.linear.value, 0, &err))
         fail_msg("%s", err.text);
-    a = velocity_block(&p, c);
+    a = velocity_block(p, c);
     o.smallest = smallest_eigenvalue(a, c);
     o.definite = o.smallest > 0;
     cholmod_free_sparse(&a, c);
-    problem_destroy(&p);
-    case_destroy(&k);
-    registry_destroy(&r);
+    close_case(k);
     return o;
 }
 

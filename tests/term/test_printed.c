@@ -11,7 +11,7 @@
 #include "printed_formulas.h"
 #include "printed_shapes.h"
 
-#include "problem/problem.h"
+#include "support/opened.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,9 +24,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-enum { THREADS = 2, STATES = 2 };
+enum { STATES = 2 };
 
 #define EXACT       1e-12
 #define DIFFERENCES 1e-6
@@ -50,77 +49,23 @@ static const char case_text[] =
     "boundary '*' { natural = true }\n"
     "time { scheme = 'bdf1', step = %.17g, stop = 1 }\n";
 
-/* --- a case, opened as the program opens it --- */
-
-typedef struct opened {
-    char path[400];
-    case_file c;
-    registry r;
-    problem p;
-    error err;
-} opened;
-
-static void write_case(opened *k)
+static opened *open_shape(const char *shape, const char *how)
 {
-    const char *folder = getenv("TMPDIR");
     const printed_fluid *f = &fluid;
-    FILE *file;
-    int fd;
+    char text[4000], set[2][64];
+    opened *k;
 
-    snprintf(k->path, sizeof k->path, "%.300s/printed-XXXXXX.lua", folder && *folder ? folder : "/tmp");
-    fd = mkstemps(k->path, 4);
-    file = fd < 0 ? NULL : fdopen(fd, "w");
-    if (!file)
-        fail_msg("cannot write %s", k->path);
-    fprintf(file, case_text, f->rho, f->mu, f->g[0], f->g[1], f->g[2], f->g[0], f->g[1], f->dt);
-    fclose(file);
-}
-
-static opened *open_case(const char *shape, const char *how)
-{
-    opened *k = calloc(1, sizeof *k);
-    char set[2][64];
-    const char *sets[2] = {set[0], set[1]};
-    int status;
-
-    assert_non_null(k);
-    write_case(k);
+    snprintf(text, sizeof text, case_text, f->rho, f->mu, f->g[0], f->g[1], f->g[2], f->g[0], f->g[1], f->dt);
     snprintf(set[0], sizeof set[0], "shape=%s", shape);
     snprintf(set[1], sizeof set[1], "how=%s", how);
-    status = case_load(&k->c, k->path, sets, 2, &k->err);
-    if (!status)
-        status = registry_create(&k->r, NULL, 0, &k->err);
-    if (!status)
-        status = problem_create(&k->p, &k->c, &k->r, THREADS, &k->err);
-    unlink(k->path);
-    if (status)
-        fail_msg("%s, jacobian = \"%s\": %s", shape, how, k->err.text);
+    k = open_text(text, (const char *[]){set[0], set[1]}, 2);
     if (k->p.space.n_free != k->p.space.n_dof)
         fail_msg("%s: %lld of %lld unknowns are free", shape, (long long)k->p.space.n_free,
                  (long long)k->p.space.n_dof);
     return k;
 }
 
-static void close_case(opened *k)
-{
-    problem_destroy(&k->p);
-    case_destroy(&k->c);
-    registry_destroy(&k->r);
-    free(k);
-}
-
 /* --- states --- */
-
-/* Reproducible numbers in [-1, 1]. */
-static void fill_random(double *x, int64_t n, uint64_t seed)
-{
-    uint64_t z = seed * 0x9e3779b97f4a7c15u + 1;
-
-    for (int64_t i = 0; i < n; i++) {
-        z = z * 6364136223846793005u + 1442695040888963407u;
-        x[i] = (double)(z >> 11) / 4503599627370496.0 - 1;
-    }
-}
 
 /* Random values at the nodes, now and a step ago; freed with free(). */
 static double *random_state(int64_t n, uint64_t seed, printed_state *s)
@@ -210,7 +155,7 @@ typedef struct claim {
 /* Kernel and printed formulas at a random state. */
 static opened *both_sides(const claim *c, uint64_t seed, printed_blocks *kernel, printed_blocks *printed)
 {
-    opened *k = open_case(c->shape, "auto");
+    opened *k = open_shape(c->shape, "auto");
     printed_state s;
     double *x = random_state(k->p.mesh.n_node, seed, &s);
 
@@ -264,7 +209,7 @@ static void derivatives_agree(void **state)
 {
     const claim *c = *state;
     int differences = strcmp(c->how, "fd") == 0, by_hand = 0;
-    opened *k[2] = {open_case(c->shape, "auto"), open_case(c->shape, c->how)};
+    opened *k[2] = {open_shape(c->shape, "auto"), open_shape(c->shape, c->how)};
 
     for (int i = 0; i < k[0]->p.n_use; i++) {
         by_hand += k[0]->p.use[i].how == TERM_AUTO && k[0]->p.use[i].term->jacobian;
@@ -295,7 +240,7 @@ static void derivatives_agree(void **state)
 static void printed_derivative(void **state)
 {
     const claim *c = *state;
-    opened *k = open_case(c->shape, "auto");
+    opened *k = open_shape(c->shape, "auto");
     int64_t n = k->p.mesh.n_node, size = PRINTED_COMPONENTS * n;
     printed_state s, t;
     double *x = random_state(n, 21, &s), *d = random_state(n, 22, &t), *jd = calloc((size_t)(2 * n), sizeof *jd);

@@ -1,5 +1,5 @@
 -- A sphere that rolls: it turns round z while it moves through the mesh, in the exact Stokes field that it carries along.  The body force
--- rho du/dt, as backward Euler sees it, makes that a solution of the unsteady equations without convection.
+-- rho du/dt makes that a solution of the unsteady equations without convection.
 case "Sphere that carries its Stokes field through the mesh"
 
 local n = param("n", 8, "cells in each direction; D/h = n / 2")

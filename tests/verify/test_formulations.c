@@ -2,9 +2,8 @@
  *
  * Formulations of particulate flow: what the printed one converges to, and what a formulation leaves undetermined.
  */
+#include "support/opened.h"
 #include "support/program.h"
-
-#include "problem/problem.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -43,57 +42,51 @@ static void printed_force_tends_to_the_exact_one(void **state)
  * changed the matrix is symmetric, so inverse iteration finds it. */
 static double smallest_singular_value(int n, double *h)
 {
-    const char *path =
-        put_file("free.lua", "local n = param('n', 10)\nmesh { box = {{-0.5,-0.5},{0.5,0.5}}, cells = {n,n} }\n"
-                             "fluid { density = 1, viscosity = 1 }\nterm 'continuity' {}\n"
-                             "term 'momentum' { without = {'convection'} }\nparticulate 'conservative'\n"
-                             "boundary 'left' { natural = true }\nboundary '*' { u = {0,0} }\n"
-                             "particle { shape = disk{radius=0.2}, density = 1, at = {0.013,0.0091} }\n");
+    const char *text = "local n = param('n', 10)\nmesh { box = {{-0.5,-0.5},{0.5,0.5}}, cells = {n,n} }\n"
+                       "fluid { density = 1, viscosity = 1 }\nterm 'continuity' {}\n"
+                       "term 'momentum' { without = {'convection'} }\nparticulate 'conservative'\n"
+                       "boundary 'left' { natural = true }\nboundary '*' { u = {0,0} }\n"
+                       "particle { shape = disk{radius=0.2}, density = 1, at = {0.013,0.0091} }\n";
     char set[20];
-    const char *sets[] = {set};
+    opened *c;
+    problem *p;
     error err = {0};
-    case_file c = {0};
-    registry r = {0};
-    problem p = {0};
     double *x, *y, *zero, sigma = 0;
 
     snprintf(set, sizeof set, "n=%d", n);
-    if (case_load(&c, path, sets, 1, &err) || registry_create(&r, NULL, 0, &err) ||
-        problem_create(&p, &c, &r, 2, &err))
-        fail_msg("%s", err.text);
-    x = calloc((size_t)(3 * p.space.n_dof), sizeof *x);
+    c = open_text(text, (const char *[]){set}, 1);
+    p = &c->p;
+    x = calloc((size_t)(3 * p->space.n_dof), sizeof *x);
     assert_non_null(x);
-    y = x + p.space.n_dof;
-    zero = y + p.space.n_dof;
-    if (assembly_run(&p.system.assembly, &(assembly_state){.x = zero, .dot = zero, .old = zero}, p.system.residual,
-                     p.system.linear.value, 0, &err))
+    y = x + p->space.n_dof;
+    zero = y + p->space.n_dof;
+    if (assembly_run(&p->system.assembly, &(assembly_state){.x = zero, .dot = zero, .old = zero},
+                     p->system.residual, p->system.linear.value, 0, &err))
         fail_msg("%s", err.text);
-    for (int64_t i = 0; i < p.space.n_free; i++)
+    for (int64_t i = 0; i < p->space.n_free; i++)
         x[i] = sin(1.7 * (double)i) + 0.3;
     for (int k = 0; k < 200; k++) { /* y = A^-1 D x */
         double size = 0, before = sigma;
 
-        for (int64_t i = 0; i < p.space.n_free; i++) {
-            const char *f = p.space.field[p.space.dof_field[p.space.dof_of[i]]].name;
+        for (int64_t i = 0; i < p->space.n_free; i++) {
+            const char *f = p->space.field[p->space.dof_field[p->space.dof_of[i]]].name;
 
             if (strcmp(f, "p") == 0 || strcmp(f, "lambda") == 0)
                 x[i] = -x[i];
         }
-        if (k == 0 ? linear_solve(&p.system.linear, x, y, 0, &err) : linear_apply(&p.system.linear, x, y, &err))
+        if (k == 0 ? linear_solve(&p->system.linear, x, y, 0, &err) : linear_apply(&p->system.linear, x, y, &err))
             fail_msg("%s", err.text);
-        for (int64_t i = 0; i < p.space.n_free; i++)
+        for (int64_t i = 0; i < p->space.n_free; i++)
             size += y[i] * y[i];
         sigma = 1 / sqrt(size);
-        for (int64_t i = 0; i < p.space.n_free; i++)
+        for (int64_t i = 0; i < p->space.n_free; i++)
             x[i] = y[i] * sigma;
         if (fabs(sigma - before) < 1e-6 * sigma)
             break;
     }
     *h = 1.0 / n;
     free(x);
-    problem_destroy(&p);
-    case_destroy(&c);
-    registry_destroy(&r);
+    close_case(c);
     return sigma;
 }
 
