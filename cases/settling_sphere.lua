@@ -4,7 +4,7 @@ case "Sphere settling in a tank"
 
 local which = param("case", "E4", "E1, E2 or E4 of the paper")
 local n = param("n", 4, "cells per diameter")
-local dt = param("dt", 0.0125, "time step, s")
+local dt = param("dt", 0.025, "time step, s")
 local stop = param("stop", 0.9, "end, s")
 local formulation = param("formulation", "sharp", "sharp or conservative")
 local d, oil = 0.015, { E1 = {970, 0.373}, E2 = {965, 0.212}, E4 = {960, 0.058} }

@@ -88,28 +88,27 @@ static located locate(problem *p, const double *x)
     return l;
 }
 
-/* The point of the surface that the level's gradient leads to from a point below it, and OUT cells out from there;
- * 0 if there is none within two cells. */
-static int find_surface(const moving_body *b, const double *x, double h, double *at)
+/* Moves a point below the surface to where the level's gradient leads to, and OUT cells out from there; 0, and the
+ * point stays, if there is no surface within two cells. */
+static int find_surface(const moving_body *b, double h, double *x)
 {
-    memcpy(at, x, 3 * sizeof *at);
+    double at[3] = {x[0], x[1], x[2]};
+
     for (int i = 0; i < 30; i++) {
         double level = particle_level(&b->here, (const double(*)[3])b->axes, at), g[3] = {0}, size = 0, way = 0;
+        int found = fabs(level) < 1e-10;
 
         particle_slope(&b->here, (const double(*)[3])b->axes, at, g);
         for (int k = 0; k < b->here.shape.dim; k++)
             size += g[k] * g[k];
-        if (!(size > 0))
-            return 0;
         for (int k = 0; k < b->here.shape.dim; k++) {
-            at[k] -= level * g[k] / size;
+            at[k] += found ? OUT * h * g[k] / sqrt(size) : -level * g[k] / size;
             way += (at[k] - x[k]) * (at[k] - x[k]);
         }
-        if (!(way < 4 * h * h))
+        if (!(size > 0) || !(way < 4 * h * h))
             return 0;
-        if (fabs(level) < 1e-10) {
-            for (int k = 0; k < b->here.shape.dim; k++)
-                at[k] += OUT * h * g[k] / sqrt(size);
+        if (found) {
+            memcpy(x, at, sizeof at);
             return 1;
         }
     }
@@ -135,23 +134,21 @@ static int find_path(const body_paths *t, const double *x, double reach, double 
     return any;
 }
 
-/* Cells where a path through `from` was; one that leaves the mesh is shortened.  0: it rests. */
-static int locate_path(problem *p, const double *from, double way[2][3], located *foot)
+/* Cells where a path through `from` was.  One that leaves the mesh has to be shortened: returns by which factor, or
+ * 0. */
+static double locate_path(problem *p, const double *from, double way[2][3], located *foot)
 {
-    for (int cut = 0; cut < 5; cut++) {
+    for (double part = 1; part > 0.05; part *= 0.5) {
         int outside = 0;
 
         for (int l = 0; l < p->paths.levels; l++) {
-            double at[3] = {from[0] - way[l][0], from[1] - way[l][1], from[2] - way[l][2]};
+            double at[3] = {from[0] - part * way[l][0], from[1] - part * way[l][1], from[2] - part * way[l][2]};
 
             foot[l] = locate(p, at);
             outside |= foot[l].cell < 0;
         }
         if (!outside)
-            return 1;
-        for (int l = 0; l < p->paths.levels; l++)
-            for (int k = 0; k < p->dim; k++)
-                way[l][k] *= 0.5;
+            return part;
     }
     return 0;
 }
@@ -182,29 +179,26 @@ static int path_at(void *problem_, int64_t cell, const double *x, double *w, dou
     problem *p = problem_;
     const body_paths *t = &p->paths;
     const moving_body *in = NULL;
-    double way[2][3], from[3] = {x[0], x[1], x[2]}, way_from[2][3], off[2][3] = {{0}}, h = p->mesh.h[cell];
+    double way[2][3], from[3] = {x[0], x[1], x[2]}, way_from[2][3], off[2][3] = {{0}}, h = p->mesh.h[cell], part;
     located foot[2];
 
     if (!t->cell[cell] || !find_path(t, x, REACH * h, way))
         return 0;
     memcpy(way_from, way, sizeof way);
     for (const moving_body *b = t->body; b < t->body + t->n && !in; b++)
-        if (b->moves && away(b, x) < 0 && distance(b, x) == 0 && find_surface(b, x, h, from))
+        if (b->moves && away(b, x) < 0 && distance(b, x) == 0 && find_surface(b, h, from))
             in = b;
     for (int l = 0; in && l < t->levels; l++)
         travelled(in, l, from, way_from[l]);
-    if (!locate_path(p, from, way_from, foot))
+    part = locate_path(p, from, way_from, foot);
+    if (part == 0)
         return 0;
-    for (int l = 0; l < t->levels; l++)
-        for (int k = 0; k < p->dim; k++) {
-            if (!in)
-                way[l][k] = way_from[l][k];
-            off[l][k] = x[k] - way[l][k] - from[k] + way_from[l][k];
-        }
     for (int k = 0; k < p->dim; k++) {
         w[k] = 0;
-        for (int l = 0; l < t->levels; l++)
-            w[k] -= t->c[l] * way[l][k];
+        for (int l = 0; l < t->levels; l++) {
+            w[k] -= t->c[l] * part * way[l][k];
+            off[l][k] = x[k] - from[k] - part * (way[l][k] - way_from[l][k]);
+        }
     }
     for (int f = 0; f < p->space.n_field; f++)
         if (t->frame.fields >> f & 1) {
