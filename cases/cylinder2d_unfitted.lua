@@ -1,5 +1,5 @@
 -- Flow round a cylinder in a channel (DFG benchmark, Schaefer and Turek 1996) on a plain graded box: the cylinder is a fixed
--- body that cuts through cells. Expect what cylinder2d gives: cd 5.5795, cl 0.01062, dp 0.1175; with --set unsteady=true St 0.302, cd_max 3.227.
+-- body that cuts through cells. Expect what cylinder2d gives: cd 5.5795, cl 0.01062, dp 0.1175; with --set unsteady=true (20 minutes) St 0.301, cd_max 3.23.
 case "Flow round a cylinder (DFG 2D), unfitted"
 
 local unsteady = param("unsteady", false, "2D-2 instead of 2D-1")
