@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-#define REACH 6    /* cells */
+#define REACH 8    /* cells */
 #define OUT   0.02 /* cells: far enough from a surface to be in a cell with fluid */
 
 static double away(const moving_body *b, const double *x)
@@ -27,7 +27,8 @@ static double away(const moving_body *b, const double *x)
     return sqrt(d) - b->here.shape.radius;
 }
 
-/* Distance from a body, to first order (level over its slope); 0 inside. */
+/* Distance from a body: the larger of two lower bounds, to first order (level over its slope) and from its ball; 0
+ * inside. */
 static double distance(const moving_body *b, const double *x)
 {
     double g[3] = {0}, size = 0, level = particle_level(&b->here, (const double(*)[3])b->axes, x);
@@ -37,22 +38,25 @@ static double distance(const moving_body *b, const double *x)
     particle_slope(&b->here, (const double(*)[3])b->axes, x, g);
     for (int k = 0; k < b->here.shape.dim; k++)
         size += g[k] * g[k];
-    return level / sqrt(size);
+    return fmax(level / sqrt(size), away(b, x));
 }
 
-/* Share of a body in the path through x: less with the distance, none at other bodies. */
+static double smooth(double s)
+{
+    return s >= 1 ? 1 : s * s * (3 - 2 * s);
+}
+
+/* Share of a body in the path through x: 1 at its surface, 0 from `reach` on; less where another body is less than
+ * twice as far, and none at that one. */
 static double share(const body_paths *p, const moving_body *b, const double *x, double reach)
 {
-    double d = away(b, x) < reach ? distance(b, x) : INFINITY, s = d / reach;
+    double d = away(b, x) < reach ? distance(b, x) : reach, s = 1 - smooth(d / reach);
 
-    if (s >= 1)
-        return 0;
-    s = 1 - s * s * (3 - 2 * s);
-    for (const moving_body *o = p->body; o < p->body + p->n; o++)
-        if (o != b && away(o, x) < d + reach) {
+    for (const moving_body *o = p->body; s > 0 && o < p->body + p->n; o++)
+        if (o != b && away(o, x) < 2 * d) {
             double e = distance(o, x);
 
-            s *= e > 0 ? e / (e + d) : d > 0 ? 0 : 0.5;
+            s *= d > 0 ? smooth(e / (2 * d)) : 1;
         }
     return s;
 }
@@ -134,15 +138,15 @@ static int find_path(const body_paths *t, const double *x, double reach, double 
     return any;
 }
 
-/* Cells where a path through `from` was.  One that leaves the mesh has to be shortened: returns by which factor, or
+/* Cells where a path through x was.  One that leaves the mesh has to be shortened: returns by which factor, or
  * 0. */
-static double locate_path(problem *p, const double *from, double way[2][3], located *foot)
+static double locate_path(problem *p, const double *x, double way[2][3], located *foot)
 {
     for (double part = 1; part > 0.05; part *= 0.5) {
         int outside = 0;
 
         for (int l = 0; l < p->paths.levels; l++) {
-            double at[3] = {from[0] - part * way[l][0], from[1] - part * way[l][1], from[2] - part * way[l][2]};
+            double at[3] = {x[0] - part * way[l][0], x[1] - part * way[l][1], x[2] - part * way[l][2]};
 
             foot[l] = locate(p, at);
             outside |= foot[l].cell < 0;
@@ -153,56 +157,111 @@ static double locate_path(problem *p, const double *from, double way[2][3], loca
     return 0;
 }
 
+/* Whether a body covered all of the cell in which `at` was found: all vertices (fluid there has no values of its
+ * own). */
+static int was_covered(const problem *p, const moving_body *b, int l, const located *foot, const double *at)
+{
+    const fe_cell *type = p->mesh.type;
+    const int32_t *node = p->mesh.cell + (int64_t)foot->cell * type->n_node;
+    double basis[FE_MAX_NODES], dn[FE_MAX_NODES][3], found[3], j[3][3];
+
+    fe_basis(type, 2, foot->xi, basis, dn);
+    mesh_map(&p->mesh, foot->cell, basis, (const double(*)[3])dn, found, j);
+    for (int i = 0; i < type->n_vertex; i++) {
+        double own[3] = {0};
+
+        for (int k = 0; k < p->dim; k++)
+            for (int c = 0; c < p->dim; c++) /* found is at, or its image by a period */
+                own[k] += b->then[l][c][k] * (p->mesh.x[(int64_t)node[type->vertex[i]] * p->dim + c] - found[c] +
+                                              at[c] - b->here.x[c] + b->way[l][c]);
+        if (shape_level(&b->here.shape, own) > 0)
+            return 0;
+    }
+    return 1;
+}
+
+/* A cut cell has points below the surface, too: where the body covered all of the cell that a path comes from, what
+ * they need is the fluid beside the surface, continued to first order: moves the foot there, off: from there to the
+ * foot. */
+static void continue_fluid(problem *p, const moving_body *b, const double *x, double h, double part,
+                           double way[2][3], located *foot, double off[2][3])
+{
+    double from[3] = {x[0], x[1], x[2]};
+    int found = -1;
+
+    for (int l = 0; l < p->paths.levels; l++) {
+        double at[3], d[3];
+        located beside;
+
+        for (int k = 0; k < 3; k++)
+            at[k] = x[k] - part * way[l][k];
+        if (!was_covered(p, b, l, &foot[l], at))
+            continue;
+        if (found < 0)
+            found = find_surface(b, h, from);
+        if (!found)
+            return;
+        travelled(b, l, from, d);
+        for (int k = 0; k < p->dim; k++) {
+            off[l][k] = at[k];
+            at[k] = from[k] - part * d[k];
+            off[l][k] -= at[k];
+        }
+        beside = locate(p, at);
+        if (beside.cell >= 0)
+            foot[l] = beside;
+        else
+            memset(off[l], 0, sizeof off[l]);
+    }
+}
+
 /* sum_k c_k u^k at the feet, continued by `off` to first order. */
-static void history_of(const problem *p, int f, const located *foot, const double off[2][3], double *history)
+static void history_of(const problem *p, int f, const located *foot, double off[2][3], double *history)
 {
     const body_paths *t = &p->paths;
     int n = p->space.field[f].n_comp;
 
     memset(history, 0, (size_t)n * sizeof *history);
     for (int l = 0; l < t->levels; l++) {
+        int further = off[l][0] != 0 || off[l][1] != 0 || off[l][2] != 0;
         double v[VALUE_MAX], g[3 * VALUE_MAX] = {0};
 
-        locate_value(&p->space, &foot[l], f, t->u[l], v, off ? g : NULL);
+        locate_value(&p->space, &foot[l], f, t->u[l], v, further ? g : NULL);
         for (int a = 0; a < n; a++) {
             history[a] += t->c[l] * v[a];
-            for (int k = 0; off && k < p->dim; k++)
+            for (int k = 0; further && k < p->dim; k++)
                 history[a] += t->c[l] * g[a * p->dim + k] * off[l][k];
         }
     }
 }
 
-/* See moving_frame.  A cut cell has points below the surface, too: what they need is the fluid beside it, continued
- * to first order, whatever was in the cells there. */
+/* See moving_frame. */
 static int path_at(void *problem_, int64_t cell, const double *x, double *w, double *history)
 {
     problem *p = problem_;
     const body_paths *t = &p->paths;
-    const moving_body *in = NULL;
-    double way[2][3], from[3] = {x[0], x[1], x[2]}, way_from[2][3], off[2][3] = {{0}}, h = p->mesh.h[cell], part;
+    double way[2][3], off[2][3] = {{0}}, h = p->mesh.h[cell], part;
     located foot[2];
 
     if (!t->cell[cell] || !find_path(t, x, REACH * h, way))
         return 0;
-    memcpy(way_from, way, sizeof way);
-    for (const moving_body *b = t->body; b < t->body + t->n && !in; b++)
-        if (b->moves && away(b, x) < 0 && distance(b, x) == 0 && find_surface(b, h, from))
-            in = b;
-    for (int l = 0; in && l < t->levels; l++)
-        travelled(in, l, from, way_from[l]);
-    part = locate_path(p, from, way_from, foot);
+    part = locate_path(p, x, way, foot);
     if (part == 0)
         return 0;
+    for (const moving_body *b = t->body; b < t->body + t->n; b++)
+        if (b->moves && away(b, x) < 0 && distance(b, x) == 0) {
+            continue_fluid(p, b, x, h, part, way, foot, off);
+            break;
+        }
     for (int k = 0; k < p->dim; k++) {
         w[k] = 0;
         for (int l = 0; l < t->levels; l++) {
             w[k] -= t->c[l] * part * way[l][k];
-            off[l][k] = x[k] - from[k] - part * (way[l][k] - way_from[l][k]);
         }
     }
     for (int f = 0; f < p->space.n_field; f++)
         if (t->frame.fields >> f & 1) {
-            history_of(p, f, foot, in ? (const double(*)[3])off : NULL, history);
+            history_of(p, f, foot, off, history);
             history += p->space.field[f].n_comp;
         }
     return 1;

@@ -187,6 +187,20 @@ static void noise_of_a_moving_disk(void **state)
             }
 }
 
+/* A body at rest whose motion is prescribed has the history of one that is fixed: mass-dominated, at rho h^2/mu dt
+ * = 1e4. */
+static void a_body_at_rest_has_the_usual_history(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("run tests/verify/moving_disk.lua --quiet --set mode=rot --set cfl=1e-6 --set k=1e4 "
+                        "--set shift=0.3 --out %s/rest",
+                        scratch()),
+               0, NULL);
+    print_message("# disk at rest, rho h^2/mu dt = 1e4: error of the torque %.3f %%\n",
+                  100 * summary("rest", "results.mean"));
+    assert_between(summary("rest", "results.mean"), -0.01, 0.01);
+}
+
 /* Schaefer and Turek 2D-1 on a box mesh: 5.57953523, 0.010618948, 0.11752016. */
 static void cylinder_on_a_box_mesh(void **state)
 {
@@ -264,6 +278,7 @@ int main(void)
         cmocka_unit_test(a_disk_falls),
         cmocka_unit_test(neutral_bodies_do_not_notice_gravity),
         cmocka_unit_test(noise_of_a_moving_disk),
+        cmocka_unit_test(a_body_at_rest_has_the_usual_history),
         cmocka_unit_test(cylinder_on_a_box_mesh),
         cmocka_unit_test(array_of_spheres),
         cmocka_unit_test(a_disk_in_shear),
