@@ -142,9 +142,8 @@ static void settling_spheres_agree_with_the_experiment(void **state)
                   summary("settle", "results.ratio"));
     assert_between(summary("settle", "results.ratio"), 0.96, 1.04);
     assert_ran(
-        plugflow(
-            "run cases/settling_sphere.lua --quiet --set case=E1 --set dt=0.05 --set stop=2.5 --out %s/settle",
-            scratch()),
+        plugflow("run cases/settling_sphere.lua --quiet --set case=E1 --set dt=0.05 --set stop=2.5 --out %s/settle",
+                 scratch()),
         0, NULL);
     print_message("# settling sphere, E1, D/h = 4: %.4f of the experiment's speed\n",
                   summary("settle", "results.ratio"));
