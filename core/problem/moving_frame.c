@@ -16,6 +16,7 @@
 #include <string.h>
 
 #define REACH 8    /* cells */
+#define RESTS 0.01 /* cells a step or two: less is no motion */
 #define OUT   0.02 /* cells: far enough from a surface to be in a cell with fluid */
 
 static double away(const moving_body *b, const double *x)
@@ -190,12 +191,14 @@ static void continue_fluid(problem *p, const moving_body *b, const double *x, do
     int found = -1;
 
     for (int l = 0; l < p->paths.levels; l++) {
-        double at[3], d[3];
+        double at[3], d[3], far = 0;
         located beside;
 
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++) {
             at[k] = x[k] - part * way[l][k];
-        if (!was_covered(p, b, l, &foot[l], at))
+            far += way[l][k] * way[l][k];
+        }
+        if (sqrt(far) < RESTS * h && !was_covered(p, b, l, &foot[l], at))
             continue;
         if (found < 0)
             found = find_surface(b, h, from);
@@ -283,6 +286,12 @@ static uint32_t find_fields(const problem *p)
     return found;
 }
 
+/* Whether turning leaves the body where it is: its path does not turn either. */
+static int is_round(const shape *s)
+{
+    return s->kind == SHAPE_ELLIPSOID && s->half[0] == s->half[1] && (s->dim == 2 || s->half[1] == s->half[2]);
+}
+
 /* The images of the bodies, now and then. */
 static void place(problem *p, int levels)
 {
@@ -298,7 +307,7 @@ static void place(problem *p, int levels)
             for (int l = 0; l < levels; l++) {
                 const particle *then = &p->remembered[l ? 2 : 0][k];
 
-                particle_rotation(then, b->then[l]);
+                particle_rotation(is_round(&then->shape) ? &b->here : then, b->then[l]);
                 for (int i = 0; i < p->dim; i++)
                     b->way[l][i] = b->here.x[i] - then->x[i];
                 mesh_nearest(&p->mesh, b->way[l]); /* it may have come in again on the other side */
