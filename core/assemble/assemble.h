@@ -142,7 +142,7 @@ typedef struct assembly_class {
     int data_ready;
     int frame_stamp;   /* of the moving frame whose values these are: */
     int64_t *frame_at; /* [n_batch] where in `frame` those of a batch are, -1: nowhere           */
-    v8 *frame;         /* w [dim][n_q], then of each field of the frame [n_comp][n_q] history + w . grad 0 */
+    v8 *frame;         /* w [dim][n_q], then of each field of the frame its history [n_comp][n_q] */
     arena frame_memory;
     arena item_memory; /* what changes with the bodies                               */
 } assembly_class;
@@ -219,8 +219,7 @@ int plan_workspace(const assembly *a, workspace *w, error *err);
 int points_data_update(assembly *a, assembly_class *c, workspace *w, double t, error *err);
 /* History along moving paths at all points near bodies; once per placement of these (frame.c). */
 int frame_update(const assembly *a, assembly_class *c, workspace *w, const moving_frame *f, error *err);
-/* Of the batch: takes du/dt of a field, of order `order` with n basis functions, over to the moving paths; w->dof:
- * its nodal values now. */
+/* Of the batch: takes an input du/dt over to the moving paths; w->dof: nodal values of its field now. */
 void frame_take(const assembly *a, const assembly_class *c, const assembly_state *s, const plan_input *in,
                 workspace *w);
 /* Its part of the Jacobian: d(du/dt) = shift du - w . grad du. */

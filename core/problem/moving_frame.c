@@ -181,9 +181,9 @@ static int was_covered(const problem *p, const moving_body *b, int l, const loca
     return 1;
 }
 
-/* A cut cell has points below the surface, too: where the body covered all of the cell that a path comes from, what
- * they need is the fluid beside the surface, continued to first order: moves the foot there, off: from there to the
- * foot. */
+/* A cut cell has points below the surface, too.  What they need is the fluid beside the surface, continued to first
+ * order: moves the foot there, off: from there to the foot.  But the history of a body that all but rests stays in
+ * its cell, if there was fluid: it must cancel c_0 u, which is of that cell. */
 static void continue_fluid(problem *p, const moving_body *b, const double *x, double h, double part,
                            double way[2][3], located *foot, double off[2][3])
 {
@@ -258,9 +258,8 @@ static int path_at(void *problem_, int64_t cell, const double *x, double *w, dou
         }
     for (int k = 0; k < p->dim; k++) {
         w[k] = 0;
-        for (int l = 0; l < t->levels; l++) {
+        for (int l = 0; l < t->levels; l++)
             w[k] -= t->c[l] * part * way[l][k];
-        }
     }
     for (int f = 0; f < p->space.n_field; f++)
         if (t->frame.fields >> f & 1) {

@@ -136,10 +136,10 @@ typedef struct problem {
     int32_t *covered;      /* attached pairs that a body covers                      */
     uint8_t *whole_inside; /* of each of them: the body covers all of the cell             */
     int64_t n_covered;
-    uint8_t *fluid_off; /* [n_cell] 1: a body covers a part of the cell; 2: all of it; 4: all of it, but a
-                         * piece of its surface lies there and the cell takes part    */
+    uint8_t *fluid_off; /* [n_cell] 1: a body is near and may cover a part of the cell; 2: all of it; 4: all of it,
+                         * but a piece of its surface lies there and the cell takes part    */
     int64_t n_cut;
-    int32_t *cut_cell, *cut_of; /* cells that a surface cuts; [n_cell] their numbers           */
+    int32_t *cut_cell, *cut_of; /* cells near bodies that leave some of them; [n_cell] their numbers */
     double *cut_weight;         /* of their part outside of all bodies                         */
     int32_t *covered_by;        /* [n_cell] attached pair of one of the bodies in such a cell  */
     int64_t n_off, off_room;
