@@ -95,7 +95,7 @@ static void particle_slots(const assembly *a, const assembly_class *c, int64_t b
 
         for (int q = 0; q < nq; q++) {
             for (int k = 0; k < dim; k++)
-                w->arm[k * nq + q][l] = w->x[k * nq + q][l] - p->x[k] - a->shift[attached][k];
+                w->arm[k * nq + q][l] = w->x[k * nq + q][l] - p->at.x[k] - a->shift[attached][k];
             w->density[q][l] = p->density;
             w->id[q * 8 + l] = id;
         }

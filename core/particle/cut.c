@@ -177,19 +177,19 @@ static void pass_surface(void *ctx, const double *xi, const double *x, const dou
     to->surface(to->ctx, xi, x, nds);
 }
 
-int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, double *w,
+int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const solid *b, double *w,
              void (*surface)(void *ctx, const double *xi, const double *x, const double *nds), void *ctx)
 {
     projection to = {.rule = r, .w = w, .surface = surface, .ctx = ctx};
     int whole;
 
     memset(w, 0, (size_t)r->n * sizeof *w);
-    whole = implicit_cell(m, cell, p, &(implicit_sink){&to, add_inside, surface ? pass_surface : NULL});
+    whole = implicit_cell(m, cell, b, &(implicit_sink){&to, add_inside, surface ? pass_surface : NULL});
     return whole ? 2 : to.any;
 }
 
 /* Position relative to the body's centre and Jacobian determinant at interpolation point q. */
-static double place(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, const double *shift, int q,
+static double place(const cut_rule *r, const mesh *m, int32_t cell, const solid *b, const double *shift, int q,
                     double *arm)
 {
     double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], j[3][3], det;
@@ -197,7 +197,7 @@ static double place(const cut_rule *r, const mesh *m, int32_t cell, const partic
     fe_basis(r->type, 2, r->x[q], n, dn);
     det = mesh_map(m, cell, n, (const double(*)[3])dn, arm, j);
     for (int a = 0; a < m->dim; a++)
-        arm[a] -= p->x[a] + shift[a];
+        arm[a] -= b->at.x[a] + shift[a];
     return det;
 }
 
@@ -215,16 +215,16 @@ static int moments_at(int dim, const double *arm, double radius, double *m)
     return n;
 }
 
-int cut_correct(const cut_rule *r, const mesh *m, const particle *p, const int32_t *cell, const double (*shift)[3],
+int cut_correct(const cut_rule *r, const mesh *m, const solid *body, const int32_t *cell, const double (*shift)[3],
                 double *w, int64_t n, double fraction, error *err)
 {
-    const shape *s = &p->shape;
-    double a[10][10] = {{0}}, target[10] = {0}, rotation[3][3], have[10] = {0}, basis[10], arm[3];
+    const shape *s = body->shape;
+    double a[10][10] = {{0}}, target[10] = {0}, have[10] = {0}, basis[10], arm[3];
     int k = 1 + m->dim + m->dim * (m->dim + 1) / 2, at = 0;
 
     for (int64_t i = 0; i < n; i++)
         for (int q = 0; q < r->n; q++) {
-            double det = place(r, m, cell[i], p, shift[i], q, arm);
+            double det = place(r, m, cell[i], body, shift[i], q, arm);
 
             moments_at(m->dim, arm, s->radius, basis);
             for (int b = 0; b < k; b++) {
@@ -234,20 +234,19 @@ int cut_correct(const cut_rule *r, const mesh *m, const particle *p, const int32
             }
         }
     if (!(have[0] > 0))
-        return error_set(err, ERR_CASE, "a body at %s lies outside the mesh", text_point(p->x, m->dim).s);
+        return error_set(err, ERR_CASE, "a body at %s lies outside the mesh", text_point(body->at.x, m->dim).s);
     if (fraction < 1) { /* cut by a symmetry plane: its volume is known, the rest is as the cells have it */
         for (int64_t i = 0; i < n * r->n; i++)
             w[i] *= fraction > 0 ? fraction * s->volume / have[0] : 1;
         return 0;
     }
-    particle_rotation(p, rotation);
     target[at++] = s->volume;
     at += m->dim;
     for (int i = 0; i < m->dim; i++)
         for (int j = i; j < m->dim; j++, at++)
             for (int b = 0; b < m->dim; b++)
                 for (int c = 0; c < m->dim; c++)
-                    target[at] += rotation[i][b] * s->moment[b][c] * rotation[j][c] / (s->radius * s->radius);
+                    target[at] += body->axes[i][b] * s->moment[b][c] * body->axes[j][c] / (s->radius * s->radius);
     for (int i = 0; i < k; i++)
         target[i] -= have[i];
     for (int i = 0; i < k; i++) { /* the matrix of moments is symmetric positive definite */
@@ -268,7 +267,7 @@ int cut_correct(const cut_rule *r, const mesh *m, const particle *p, const int32
         for (int q = 0; q < r->n; q++) {
             double f = 1;
 
-            place(r, m, cell[i], p, shift[i], q, arm);
+            place(r, m, cell[i], body, shift[i], q, arm);
             moments_at(m->dim, arm, s->radius, basis);
             for (int b = 0; b < k; b++)
                 f += target[b] * basis[b];

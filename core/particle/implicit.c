@@ -21,11 +21,10 @@ enum { WRONG = 2, MOST_ROOTS = 16, PROBES = 6, DEPTH_2D = 5, DEPTH_3D = 4 };
 
 typedef struct work {
     const mesh *m;
-    const particle *p;
+    const solid *b;
     const implicit_sink *sink;
     int dim, affine, partly, most_depth;
     int32_t cell;
-    double rotation[3][3];
     double x0[3], j[3][3]; /* of the cell, if it is affine */
     int n_gauss;           /* across the lines             */
     double size;           /* of the cell                  */
@@ -99,7 +98,7 @@ static double level(const work *w, const double *c)
 
     reference(w, c, xi, d);
     place(w, xi, x, j);
-    return particle_level(w->p, w->rotation, x);
+    return solid_level(w->b, x);
 }
 
 /* Gradient with respect to c, also to x; part[k]: along the line of c_k in space, per length (NAN where the line is
@@ -110,7 +109,7 @@ static void slope(const work *w, const double *c, double *by_c, double *by_x, do
 
     reference(w, c, xi, d);
     place(w, xi, x, j);
-    particle_slope(w->p, w->rotation, x, by_x);
+    solid_slope(w->b, x, by_x);
     for (int k = 0; k < w->dim; k++) {
         double speed = 0;
 
@@ -435,7 +434,7 @@ static void divide(work *w, const box *b, int depth);
 static void integrate(work *w, const box *b, int depth)
 {
     survey s = look(w, b);
-    int k = 0, j = 0, again = depth < (shape_is_smooth(&w->p->shape) ? 0 : 2);
+    int k = 0, j = 0, again = depth < (shape_is_smooth(w->b->shape) ? 0 : 2);
     double share = INFINITY;
 
     if (fabs(s.centre) > s.reach) {
@@ -504,17 +503,16 @@ static int find_affine(work *w)
     return 1;
 }
 
-int implicit_cell(const mesh *m, int32_t cell, const particle *p, const implicit_sink *sink)
+int implicit_cell(const mesh *m, int32_t cell, const solid *b, const implicit_sink *sink)
 {
-    work w = {.m = m, .p = p, .sink = sink, .dim = m->dim, .cell = cell, .n_gauss = m->dim == 2 ? 6 : 4};
-    box b = {{0}, {1, 1, 1}};
+    work w = {.m = m, .b = b, .sink = sink, .dim = m->dim, .cell = cell, .n_gauss = m->dim == 2 ? 6 : 4};
+    box unit = {{0}, {1, 1, 1}};
 
     w.most_depth = m->dim == 2 ? DEPTH_2D : DEPTH_3D;
-    if (!shape_is_smooth(&p->shape)) /* edges are cut off at the last level */
+    if (!shape_is_smooth(b->shape)) /* edges are cut off at the last level */
         w.most_depth += m->dim == 2 ? 3 : 1;
     w.size = m->h[cell];
     w.affine = find_affine(&w);
-    particle_rotation(p, w.rotation);
-    integrate(&w, &b, 0);
+    integrate(&w, &unit, 0);
     return !w.partly;
 }

@@ -30,30 +30,48 @@ int shape_measure(shape *s, error *err);
 double shape_level(const shape *s, const double *body_x);
 /* Its gradient: by formula, or by central differences. */
 void shape_slope(const shape *s, const double *body_x, double *g);
+/* Largest extent from the centre in direction n (unit vector of the body's frame); of general shapes the radius. */
+double shape_support(const shape *s, const double *n);
 /* Whether the surface has no edges and the level no kinks near it. */
 int shape_is_smooth(const shape *s);
 
+/* Where a body is and how it is turned. */
+typedef struct pose {
+    double x[3];  /* centroid, m                                  */
+    double angle; /* 2D: of its x axis, rad                       */
+    double q[4];  /* 3D: unit quaternion, scalar part first       */
+} pose;
+
+/* Turns by the rotation vector (rad); 2D: its last component. */
+void pose_turn(pose *at, int dim, const double *rotation);
+
+/* A shape at a pose. */
+typedef struct solid {
+    const shape *shape;
+    pose at;
+    double axes[3][3]; /* columns: the body's axes */
+} solid;
+
+solid solid_at(const shape *s, const pose *at);
+/* Coordinates in the body's own frame of a point of space. */
+void solid_own(const solid *b, const double *x, double *own);
+/* Level at a point of space, and its gradient there. */
+double solid_level(const solid *b, const double *x);
+void solid_slope(const solid *b, const double *x, double *g);
+/* Largest extent from the centre in direction n (unit vector of space). */
+double solid_support(const solid *b, const double *n);
+
 enum particle_motion { PARTICLE_FREE, PARTICLE_FIXED, PARTICLE_PRESCRIBED };
 
+/* A body of a case. */
 typedef struct particle {
     shape shape;
-    double density;
+    double density; /* kg/m^3 */
     int motion;
-    double x[3], angle, q[4]; /* place now: centroid, angle (2D), quaternion (3D, w first) */
-    value velocity, spin;     /* initial, of the surface (fixed), or prescribed            */
-    int held[6];              /* single components of velocity (3) and spin (3) held       */
+    pose at;
+    value velocity, spin; /* initial, of the surface (fixed), or prescribed            */
+    int held[6];          /* single components of velocity (3) and spin (3) held       */
 } particle;
-
-/* Rotation matrix of a particle: columns are the body's axes. */
-void particle_rotation(const particle *p, double r[3][3]);
-/* Level of the body at a point of space. */
-double particle_level(const particle *p, const double r[3][3], const double *x);
-/* Gradient of the level in space. */
-void particle_slope(const particle *p, const double r[3][3], const double *x, double *g);
-/* Largest extent of the body from its centre in direction n (unit vector). */
-double particle_support(const particle *p, const double r[3][3], const double *n);
-/* Turns by the rotation vector (rad); 2D: its last component. */
-void particle_turn(particle *p, const double *rotation);
 
 /* --- cells near a point: a grid of buckets, built once (search.c) --- */
 typedef struct cell_grid {
@@ -100,17 +118,17 @@ typedef struct implicit_sink {
 } implicit_sink;
 
 /* Feeds the sink (implicit.c); 1 if the whole cell is inside. */
-int implicit_cell(const mesh *m, int32_t cell, const particle *p, const implicit_sink *sink);
+int implicit_cell(const mesh *m, int32_t cell, const solid *b, const implicit_sink *sink);
 
 /* Weights w[rule.n] (reference measure) of the part of the cell inside the particle; 0 if there is
  * none, 2 if the whole cell is inside, else 1.  surface: see implicit_sink; NULL: not needed. */
-int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const particle *p, double *w,
+int cut_cell(const cut_rule *r, const mesh *m, int32_t cell, const solid *b, double *w,
              void (*surface)(void *ctx, const double *xi, const double *x, const double *nds), void *ctx);
 
 /* Multiplies the weights of a body that lies inside the mesh by 1 + c0 + c.r + r.C.r so that volume,
  * centroid and second moments are exact.  n cells with weights, shift: of the body's image in each of them;
  * fraction: of the body inside the domain. */
-int cut_correct(const cut_rule *r, const mesh *m, const particle *p, const int32_t *cell, const double (*shift)[3],
+int cut_correct(const cut_rule *r, const mesh *m, const solid *b, const int32_t *cell, const double (*shift)[3],
                 double *w, int64_t n, double fraction, error *err);
 
 #endif

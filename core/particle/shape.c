@@ -150,90 +150,22 @@ int shape_measure(shape *s, error *err)
     return 0;
 }
 
-void particle_rotation(const particle *p, double r[3][3])
+double shape_support(const shape *s, const double *n)
 {
-    double w = p->q[0], x = p->q[1], y = p->q[2], z = p->q[3];
+    double v = 0;
 
-    if (p->shape.dim == 2) {
-        double c = cos(p->angle), s = sin(p->angle);
-        const double m[3][3] = {{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
-
-        memcpy(r, m, sizeof m);
-        return;
-    }
-    r[0][0] = 1 - 2 * (y * y + z * z), r[0][1] = 2 * (x * y - w * z), r[0][2] = 2 * (x * z + w * y);
-    r[1][0] = 2 * (x * y + w * z), r[1][1] = 1 - 2 * (x * x + z * z), r[1][2] = 2 * (y * z - w * x);
-    r[2][0] = 2 * (x * z - w * y), r[2][1] = 2 * (y * z + w * x), r[2][2] = 1 - 2 * (x * x + y * y);
-}
-
-double particle_level(const particle *p, const double r[3][3], const double *x)
-{
-    double body[3] = {0};
-
-    for (int i = 0; i < p->shape.dim; i++)
-        for (int j = 0; j < p->shape.dim; j++)
-            body[i] += r[j][i] * (x[j] - p->x[j]);
-    return shape_level(&p->shape, body);
-}
-
-void particle_slope(const particle *p, const double r[3][3], const double *x, double *g)
-{
-    int dim = p->shape.dim;
-    double body[3] = {0}, own[3] = {0};
-
-    for (int i = 0; i < dim; i++)
-        for (int j = 0; j < dim; j++)
-            body[i] += r[j][i] * (x[j] - p->x[j]);
-    shape_slope(&p->shape, body, own);
-    for (int j = 0; j < dim; j++) {
-        g[j] = 0;
-        for (int i = 0; i < dim; i++)
-            g[j] += r[j][i] * own[i];
-    }
-}
-
-double particle_support(const particle *p, const double r[3][3], const double *n)
-{
-    const shape *s = &p->shape;
-    double b[3] = {0}, v = 0;
-
-    for (int i = 0; i < s->dim; i++)
-        for (int j = 0; j < s->dim; j++)
-            b[i] += r[j][i] * n[j];
     switch (s->kind) {
     case SHAPE_ELLIPSOID:
         for (int i = 0; i < s->dim; i++)
-            v += s->half[i] * s->half[i] * b[i] * b[i];
+            v += s->half[i] * s->half[i] * n[i] * n[i];
         return sqrt(v);
     case SHAPE_BOX:
         for (int i = 0; i < s->dim; i++)
-            v += s->half[i] * fabs(b[i]);
+            v += s->half[i] * fabs(n[i]);
         return v;
     case SHAPE_CYLINDER:
-        return s->half[0] * hypot(b[0], b[1]) + s->half[2] * fabs(b[2]);
+        return s->half[0] * hypot(n[0], n[1]) + s->half[2] * fabs(n[2]);
     default:
         return s->radius;
     }
-}
-
-/* q <- exp(rotation / 2) q, normalised. */
-void particle_turn(particle *p, const double *rotation)
-{
-    double angle, s, a[4], *q = p->q, b[4], norm = 0;
-
-    if (p->shape.dim == 2) {
-        p->angle += rotation[2];
-        return;
-    }
-    angle = sqrt(rotation[0] * rotation[0] + rotation[1] * rotation[1] + rotation[2] * rotation[2]);
-    s = angle > 1e-12 ? sin(angle / 2) / angle : 0.5;
-    a[0] = cos(angle / 2), a[1] = s * rotation[0], a[2] = s * rotation[1], a[3] = s * rotation[2];
-    b[0] = a[0] * q[0] - a[1] * q[1] - a[2] * q[2] - a[3] * q[3];
-    b[1] = a[0] * q[1] + a[1] * q[0] + a[2] * q[3] - a[3] * q[2];
-    b[2] = a[0] * q[2] - a[1] * q[3] + a[2] * q[0] + a[3] * q[1];
-    b[3] = a[0] * q[3] + a[1] * q[2] - a[2] * q[1] + a[3] * q[0];
-    for (int k = 0; k < 4; k++)
-        norm += b[k] * b[k];
-    for (int k = 0; k < 4; k++)
-        q[k] = b[k] / sqrt(norm);
 }

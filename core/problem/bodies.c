@@ -41,7 +41,7 @@ particle problem_image(const problem *p, int64_t attached)
     particle q = p->particle[p->space.attached_particle[attached]];
 
     for (int i = 0; i < 3; i++)
-        q.x[i] += p->shift[attached][i];
+        q.at.x[i] += p->shift[attached][i];
     return q;
 }
 
@@ -111,7 +111,7 @@ static int attach(problem *p, error *err)
             const particle *q = &p->particle[k];
 
             for (int j = 0; j < p->n_image; j++) {
-                double x[3] = {q->x[0] + p->image[j][0], q->x[1] + p->image[j][1], q->x[2] + p->image[j][2]};
+                double x[3] = {q->at.x[0] + p->image[j][0], q->at.x[1] + p->image[j][1], q->at.x[2] + p->image[j][2]};
                 int64_t here = cell_grid_ball(&p->grid, x, q->shape.radius + MARGIN * p->h_max, list);
 
                 for (int64_t i = 0; pass && i < here; i++) {
@@ -121,7 +121,7 @@ static int attach(problem *p, error *err)
                 }
                 n += here;
             }
-            memcpy(p->envelope + 3 * k, q->x, 3 * sizeof *q->x);
+            memcpy(p->envelope + 3 * k, q->at.x, sizeof q->at.x);
         }
         if (pass)
             break;
@@ -180,12 +180,14 @@ static int cut(problem *p, error *err)
         const particle *q = &p->particle[k];
         int64_t first = p->n_covered, n;
         double volume = 0, fraction;
+        solid whole;
         double(*shift)[3];
         int32_t *cell;
         int inside;
 
         for (; a < s->n_attached && s->attached_particle[a] == k; a++) {
-            particle here = problem_image(p, a);
+            particle image = problem_image(p, a);
+            solid here = solid_at(&image.shape, &image.at);
 
             p->surface.now = (int32_t)a;
             inside = cut_cell(&p->cut, &p->mesh, s->attached_cell[a], &here, p->weight + p->n_covered * p->cut.n,
@@ -211,14 +213,15 @@ static int cut(problem *p, error *err)
                              "particle %d has left the domain: its centre is at %s; for a body that may, stop "
                              "earlier, or make the "
                              "boundary periodic",
-                             k, text_point(q->x, p->dim).s);
+                             k, text_point(q->at.x, p->dim).s);
         fraction = 1; /* a body that reaches over the edge of the domain: half, quarter, eighth, or unknown */
         for (int i = 1; i <= 3; i++)
             if (fabs(volume / q->shape.volume - pow(0.5, i)) < 0.03 * pow(0.5, i))
                 fraction = pow(0.5, i);
         if (fraction == 1 && fabs(volume / q->shape.volume - 1) > 0.05)
             fraction = 0;
-        TRY(cut_correct(&p->cut, &p->mesh, q, cell, (const double(*)[3])shift, p->weight + first * p->cut.n, n,
+        whole = solid_at(&q->shape, &q->at);
+        TRY(cut_correct(&p->cut, &p->mesh, &whole, cell, (const double(*)[3])shift, p->weight + first * p->cut.n, n,
                         fraction, err));
     }
     return 0;
@@ -282,7 +285,7 @@ int problem_cut(problem *p, double *x, error *err)
         double d = 0;
 
         for (int i = 0; i < p->dim; i++)
-            d += pow(p->particle[k].x[i] - p->envelope[3 * k + i], 2);
+            d += pow(p->particle[k].at.x[i] - p->envelope[3 * k + i], 2);
         moved |= p->particle[k].motion != PARTICLE_FIXED;
         again |= sqrt(d) > 0.95 * MARGIN * p->h_max;
     }
@@ -403,11 +406,11 @@ int problem_move(void *problem_, enum move what, int slot, double dt, const doub
         if (what == MOVE_RESTORE || q->motion == PARTICLE_FIXED)
             continue;
         for (int i = 0; u >= 0 && i < p->dim; i++)
-            q->x[i] += 0.5 * dt * (u0[u + i] + u1[u + i]);
+            q->at.x[i] += 0.5 * dt * (u0[u + i] + u1[u + i]);
         for (int i = 0; w >= 0 && i < (p->dim == 2 ? 1 : 3); i++)
             turn[p->dim == 2 ? 2 : i] = 0.5 * dt * (u0[w + i] + u1[w + i]);
-        particle_turn(q, turn);
-        mesh_wrap(&p->mesh, q->x); /* one that left through a periodic boundary comes in on the other side */
+        pose_turn(&q->at, p->dim, turn);
+        mesh_wrap(&p->mesh, q->at.x); /* one that left through a periodic boundary comes in on the other side */
     }
     if (what == MOVE_PLACE)
         problem_fill(p, u1);

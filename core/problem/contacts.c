@@ -30,7 +30,7 @@ static double separation(const problem *p, const particle *a, const particle *b,
         double r[3], d = 0;
 
         for (int k = 0; k < p->dim; k++) {
-            r[k] = a->x[k] + p->image[i][k] - b->x[k];
+            r[k] = a->at.x[k] + p->image[i][k] - b->at.x[k];
             d += r[k] * r[k];
         }
         d = sqrt(d);
@@ -72,7 +72,8 @@ static void add_pair(problem *p, int64_t link, int a, const particle *b, double 
 {
     near_pair *n = &p->pair[p->n_pair++];
     const particle *q = &p->particle[a];
-    double r[3][3], back[3], reach;
+    solid here = solid_at(&q->shape, &q->at);
+    double back[3], reach;
 
     *n = (near_pair){
         .group = p->mesh.n_cell + p->space.n_attached + link, .particle = a, .gap = gap, .h = p->h_mean};
@@ -80,22 +81,20 @@ static void add_pair(problem *p, int64_t link, int a, const particle *b, double 
     n->density[0] = q->density;
     n->size[1] = b ? 2 * b->shape.radius : INFINITY;
     n->density[1] = b ? b->density : 0;
-    particle_rotation(q, r);
     for (int k = 0; k < 3; k++)
         back[k] = -normal[k];
-    reach = particle_support(q, (const double(*)[3])r, back) + 0.5 * gap;
+    reach = solid_support(&here, back) + 0.5 * gap;
     for (int k = 0; k < p->dim; k++) {
         n->normal[k] = normal[k];
-        n->at[k] = q->x[k] - reach * normal[k];
+        n->at[k] = q->at.x[k] - reach * normal[k];
     }
 }
 
 static void near_walls(problem *p, int k)
 {
     const particle *q = &p->particle[k];
-    double r[3][3];
+    solid here = solid_at(&q->shape, &q->at);
 
-    particle_rotation(q, r);
     for (int side = 0; side < 2 * p->dim; side++) {
         int axis = side / 2;
         double n[3] = {0}, gap;
@@ -103,8 +102,8 @@ static void near_walls(problem *p, int k)
         if (!(p->walls >> side & 1))
             continue;
         n[axis] = side % 2 ? -1 : 1;
-        gap = (side % 2 ? p->box.high[axis] - q->x[axis] : q->x[axis] - p->box.low[axis]) -
-              particle_support(q, (const double(*)[3])r, n);
+        gap = (side % 2 ? p->box.high[axis] - q->at.x[axis] : q->at.x[axis] - p->box.low[axis]) -
+              solid_support(&here, n);
         if (gap < p->pair_range)
             add_pair(p, k, k, NULL, gap, n);
     }
@@ -120,14 +119,13 @@ void problem_find_pairs(problem *p)
     for (int64_t l = p->n_particle; l < p->n_link; l++) {
         int i = (int)(s->extra_carrier[2 * l] - p->mesh.n_node - 1);
         const particle *a = &p->particle[i], *b = &p->particle[s->extra_carrier[2 * l + 1] - p->mesh.n_node - 1];
-        double n[3] = {0}, back[3], r[2][3][3], gap = separation(p, a, b, n);
+        solid first = solid_at(&a->shape, &a->at), second = solid_at(&b->shape, &b->at);
+        double n[3] = {0}, back[3], gap = separation(p, a, b, n);
 
         for (int k = 0; k < 3; k++)
             back[k] = -n[k];
-        particle_rotation(a, r[0]);
-        particle_rotation(b, r[1]);
         gap -=
-            particle_support(a, (const double(*)[3])r[0], back) + particle_support(b, (const double(*)[3])r[1], n);
+            solid_support(&first, back) + solid_support(&second, n);
         if (gap < p->pair_range)
             add_pair(p, l, i, b, gap, n);
     }

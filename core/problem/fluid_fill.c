@@ -12,7 +12,7 @@ void problem_motion(const problem *p, const double *x, int k, const double *at, 
     double r[3] = {0}, spin[3] = {0};
 
     for (int b = 0; b < p->dim; b++)
-        r[b] = at[b] - p->particle[k].x[b];
+        r[b] = at[b] - p->particle[k].at.x[b];
     for (int b = 0; w >= 0 && b < (p->dim == 2 ? 1 : 3); b++)
         spin[p->dim == 2 ? 2 : b] = x[w + b];
     for (int b = 0; b < p->dim; b++) {

@@ -214,11 +214,11 @@ typedef struct candidate {
 /* Unit vector out of the body at the centre of a bad cell. */
 static void outward(const problem *p, int32_t bad, const double *x, double *n)
 {
-    particle here = problem_image(p, p->covered_by[bad]);
-    double r[3][3], size = 0;
+    particle image = problem_image(p, p->covered_by[bad]);
+    solid here = solid_at(&image.shape, &image.at);
+    double size = 0;
 
-    particle_rotation(&here, r);
-    particle_slope(&here, (const double(*)[3])r, x, n);
+    solid_slope(&here, x, n);
     for (int k = 0; k < p->dim; k++)
         size += n[k] * n[k];
     for (int k = 0; k < p->dim; k++)

@@ -23,21 +23,21 @@ static double away(const moving_body *b, const double *x)
 {
     double d = 0;
 
-    for (int k = 0; k < b->here.shape.dim; k++)
-        d += (x[k] - b->here.x[k]) * (x[k] - b->here.x[k]);
-    return sqrt(d) - b->here.shape.radius;
+    for (int k = 0; k < b->here.shape->dim; k++)
+        d += (x[k] - b->here.at.x[k]) * (x[k] - b->here.at.x[k]);
+    return sqrt(d) - b->here.shape->radius;
 }
 
 /* Distance from a body: the larger of two lower bounds, to first order (level over its slope) and from its ball; 0
  * inside. */
 static double distance(const moving_body *b, const double *x)
 {
-    double g[3] = {0}, size = 0, level = particle_level(&b->here, (const double(*)[3])b->axes, x);
+    double g[3] = {0}, size = 0, level = solid_level(&b->here, x);
 
     if (level <= 0)
         return 0;
-    particle_slope(&b->here, (const double(*)[3])b->axes, x, g);
-    for (int k = 0; k < b->here.shape.dim; k++)
+    solid_slope(&b->here, x, g);
+    for (int k = 0; k < b->here.shape->dim; k++)
         size += g[k] * g[k];
     return fmax(level / sqrt(size), away(b, x));
 }
@@ -65,14 +65,14 @@ static double share(const body_paths *p, const moving_body *b, const double *x, 
 /* How far the point of a body that is at x now has come since level l. */
 static void travelled(const moving_body *b, int l, const double *x, double *d)
 {
-    int dim = b->here.shape.dim;
+    int dim = b->here.shape->dim;
     double own[3] = {0};
 
     for (int i = 0; i < dim; i++)
         for (int k = 0; k < dim; k++)
-            own[i] += b->axes[k][i] * (x[k] - b->here.x[k]);
+            own[i] += b->here.axes[k][i] * (x[k] - b->here.at.x[k]);
     for (int k = 0; k < dim; k++) {
-        d[k] = b->way[l][k] + x[k] - b->here.x[k];
+        d[k] = b->way[l][k] + x[k] - b->here.at.x[k];
         for (int i = 0; i < dim; i++)
             d[k] -= b->then[l][k][i] * own[i];
     }
@@ -100,13 +100,13 @@ static int find_surface(const moving_body *b, double h, double *x)
     double at[3] = {x[0], x[1], x[2]};
 
     for (int i = 0; i < 30; i++) {
-        double level = particle_level(&b->here, (const double(*)[3])b->axes, at), g[3] = {0}, size = 0, way = 0;
+        double level = solid_level(&b->here, at), g[3] = {0}, size = 0, way = 0;
         int found = fabs(level) < 1e-10;
 
-        particle_slope(&b->here, (const double(*)[3])b->axes, at, g);
-        for (int k = 0; k < b->here.shape.dim; k++)
+        solid_slope(&b->here, at, g);
+        for (int k = 0; k < b->here.shape->dim; k++)
             size += g[k] * g[k];
-        for (int k = 0; k < b->here.shape.dim; k++) {
+        for (int k = 0; k < b->here.shape->dim; k++) {
             at[k] += found ? OUT * h * g[k] / sqrt(size) : -level * g[k] / size;
             way += (at[k] - x[k]) * (at[k] - x[k]);
         }
@@ -131,7 +131,7 @@ static int find_path(const body_paths *t, const double *x, double reach, double 
 
         for (int l = 0; s > 0 && l < t->levels; l++) {
             travelled(b, l, x, d);
-            for (int k = 0; k < b->here.shape.dim; k++)
+            for (int k = 0; k < b->here.shape->dim; k++)
                 way[l][k] += s * d[k];
         }
         any |= s > 0;
@@ -174,8 +174,8 @@ static int was_covered(const problem *p, const moving_body *b, int l, const loca
         for (int k = 0; k < p->dim; k++)
             for (int c = 0; c < p->dim; c++) /* found is at, or its image by a period */
                 own[k] += b->then[l][c][k] * (p->mesh.x[(int64_t)node[type->vertex[i]] * p->dim + c] - found[c] +
-                                              at[c] - b->here.x[c] + b->way[l][c]);
-        if (shape_level(&b->here.shape, own) > 0)
+                                              at[c] - b->here.at.x[c] + b->way[l][c]);
+        if (shape_level(b->here.shape, own) > 0)
             return 0;
     }
     return 1;
@@ -301,18 +301,19 @@ static void place(problem *p, int levels)
         for (int j = 0; j < p->n_image; j++) {
             moving_body *b = &t->body[t->n++];
 
-            *b = (moving_body){.here = p->particle[k], .moves = p->particle[k].motion != PARTICLE_FIXED};
-            particle_rotation(&b->here, b->axes);
+            *b = (moving_body){.here = solid_at(&p->particle[k].shape, &p->particle[k].at),
+                               .moves = p->particle[k].motion != PARTICLE_FIXED};
             for (int l = 0; l < levels; l++) {
                 const particle *then = &p->remembered[l ? 2 : 0][k];
+                solid turned = is_round(&then->shape) ? b->here : solid_at(&then->shape, &then->at);
 
-                particle_rotation(is_round(&then->shape) ? &b->here : then, b->then[l]);
+                memcpy(b->then[l], turned.axes, sizeof turned.axes);
                 for (int i = 0; i < p->dim; i++)
-                    b->way[l][i] = b->here.x[i] - then->x[i];
+                    b->way[l][i] = b->here.at.x[i] - then->at.x[i];
                 mesh_nearest(&p->mesh, b->way[l]); /* it may have come in again on the other side */
             }
             for (int i = 0; i < 3; i++)
-                b->here.x[i] += p->image[j][i];
+                b->here.at.x[i] += p->image[j][i];
         }
 }
 
@@ -326,9 +327,9 @@ const moving_frame *problem_frame(void *problem_, int levels, const double *c, c
     place(p, levels);
     memset(t->cell, 0, (size_t)p->mesh.n_cell);
     for (int i = 0; i < t->n; i++) {
-        const particle *q = &t->body[i].here;
+        const solid *q = &t->body[i].here;
         int64_t n =
-            t->body[i].moves ? cell_grid_ball(&p->grid, q->x, q->shape.radius + REACH * p->h_max, p->near_cell) : 0;
+            t->body[i].moves ? cell_grid_ball(&p->grid, q->at.x, q->shape->radius + REACH * p->h_max, p->near_cell) : 0;
 
         for (int64_t k = 0; k < n; k++)
             t->cell[p->near_cell[k]] = 1;

@@ -82,13 +82,13 @@ static void read_body(problem *p, reader *r, particle *q)
     reader_required(r, "density",
                     reader_number(r, "density", "mass per volume, kg/m^3", 1e-300, 1e30, &q->density));
     if (p->dim == 2)
-        reader_number(r, "angle", "of the body's x axis, rad", -1e9, 1e9, &q->angle);
+        reader_number(r, "angle", "of the body's x axis, rad", -1e9, 1e9, &q->at.angle);
     else
         reader_vector(r, "orientation", "quaternion {w, x, y, z}", 4, orientation);
     for (int k = 0; k < 4; k++)
         norm += orientation[k] * orientation[k];
     for (int k = 0; k < 4; k++)
-        q->q[k] = orientation[k] / (norm > 0 ? sqrt(norm) : 1);
+        q->at.q[k] = orientation[k] / (norm > 0 ? sqrt(norm) : 1);
     q->velocity.n = p->dim;
     q->spin.n = p->dim == 2 ? 1 : 3;
     reader_value(r, "velocity", "m/s; a function of t if the motion is prescribed", p->dim, 0, &q->velocity);
@@ -119,7 +119,7 @@ static int read_one(problem *p, const case_block *b, error *err)
 
     reader_open(&r, p->c, b, "particle");
     read_body(p, &r, &q);
-    reader_required(&r, "at", reader_vector(&r, "at", "place of the centroid, m", p->dim, q.x));
+    reader_required(&r, "at", reader_vector(&r, "at", "place of the centroid, m", p->dim, q.at.x));
     if (reader_required(&r, "shape",
                         reader_table(&r, "shape", "disk{radius = ...}, sphere{}, ellipse{}, rectangle{} ...")))
         TRY(read_shape(p, b, &q.shape, err));
@@ -178,13 +178,13 @@ static int read_many(problem *p, const case_block *b, error *err)
             break;
         }
         for (int k = 0; k < p->dim; k++)
-            q.x[k] = corner[0][k] + q.shape.radius +
+            q.at.x[k] = corner[0][k] + q.shape.radius +
                      (corner[1][k] - corner[0][k] - 2 * q.shape.radius) * uniform(&state);
         for (int i = 0; i < p->n_particle && ok; i++) {
             double d = 0, reach = p->particle[i].shape.radius + q.shape.radius + gap;
 
             for (int k = 0; k < p->dim; k++)
-                d += (p->particle[i].x[k] - q.x[k]) * (p->particle[i].x[k] - q.x[k]);
+                d += (p->particle[i].at.x[k] - q.at.x[k]) * (p->particle[i].at.x[k] - q.at.x[k]);
             ok = d >= reach * reach;
         }
         if (ok)

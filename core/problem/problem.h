@@ -69,9 +69,8 @@ typedef struct problem_output {
 
 /* An image of a body, now and at the levels of history (moving_frame.c). */
 typedef struct moving_body {
-    particle here;
+    solid here;
     int moves;
-    double axes[3][3];    /* columns: the body's axes now  */
     double way[2][3];     /* of its centre since then */
     double then[2][3][3]; /* its axes then */
 } moving_body;

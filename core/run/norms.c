@@ -111,14 +111,14 @@ static int is_inside(const problem *p, int64_t cell, const double *x)
 
     for (int64_t k = 0; k < p->n_covered; k++) {
         int32_t a = p->covered[k];
-        particle here;
-        double r[3][3];
+        particle image;
+        solid here;
 
         if (s->attached_cell[a] != cell)
             continue;
-        here = problem_image(p, a);
-        particle_rotation(&here, r);
-        if (particle_level(&here, (const double(*)[3])r, x) < 0)
+        image = problem_image(p, a);
+        here = solid_at(&image.shape, &image.at);
+        if (solid_level(&here, x) < 0)
             return 1;
     }
     return 0;

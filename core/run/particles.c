@@ -92,11 +92,11 @@ int particles_write(run *r, double t, error *err)
         *at++ = t;
         *at++ = k;
         for (int i = 0; i < p->dim; i++)
-            *at++ = q->x[i];
+            *at++ = q->at.x[i];
         if (p->dim == 2)
-            *at++ = q->angle;
+            *at++ = q->at.angle;
         for (int i = 0; p->dim == 3 && i < 4; i++)
-            *at++ = q->q[i];
+            *at++ = q->at.q[i];
         for (int i = 0; i < p->dim; i++)
             *at++ = u >= 0 ? p->x[u + i] : 0;
         for (int i = 0; i < n_spin; i++)
@@ -121,7 +121,8 @@ double particles_energy(const run *r)
     for (int k = 0; k < p->n_particle; k++) {
         const particle *q = &p->particle[k];
         int64_t u = problem_particle_dof(p, k, PF_VECTOR), w = problem_particle_dof(p, k, PF_SPIN);
-        double axes[3][3], trace = q->shape.moment[0][0] + q->shape.moment[1][1] + q->shape.moment[2][2];
+        solid here = solid_at(&q->shape, &q->at);
+        double trace = q->shape.moment[0][0] + q->shape.moment[1][1] + q->shape.moment[2][2];
 
         for (int i = 0; u >= 0 && i < p->dim; i++)
             sum += 0.5 * q->density * q->shape.volume * p->x[u + i] * p->x[u + i];
@@ -129,14 +130,13 @@ double particles_energy(const run *r)
             sum += 0.5 * q->density * (q->shape.moment[0][0] + q->shape.moment[1][1]) * p->x[w] * p->x[w];
         if (w < 0 || p->dim == 2)
             continue;
-        particle_rotation(q, axes);
         for (int i = 0; i < 3; i++) /* spin in the body's frame; I = trace(M) 1 - M */
             for (int j = 0; j < 3; j++) {
                 double wi = 0, wj = 0;
 
                 for (int c = 0; c < 3; c++) {
-                    wi += axes[c][i] * p->x[w + c];
-                    wj += axes[c][j] * p->x[w + c];
+                    wi += here.axes[c][i] * p->x[w + c];
+                    wj += here.axes[c][j] * p->x[w + c];
                 }
                 sum += 0.5 * q->density * wi * wj * ((i == j ? trace : 0) - q->shape.moment[i][j]);
             }
@@ -168,9 +168,9 @@ int particles_balance(run *r, double *balance, error *err)
 /* Point of the outline in direction angle, in the plane of the body's x and y axes. */
 static void outline_point(const particle *q, double angle, double *x)
 {
-    double r[3][3], low = 0, high = 1.5 * q->shape.radius;
+    solid here = solid_at(&q->shape, &q->at);
+    double low = 0, high = 1.5 * q->shape.radius;
 
-    particle_rotation(q, r);
     for (int i = 0; i < 50; i++) {
         double mid = 0.5 * (low + high), body[3] = {mid * cos(angle), mid * sin(angle), 0};
 
@@ -180,7 +180,7 @@ static void outline_point(const particle *q, double angle, double *x)
             high = mid;
     }
     for (int k = 0; k < 3; k++)
-        x[k] = q->x[k] + low * (r[k][0] * cos(angle) + r[k][1] * sin(angle));
+        x[k] = q->at.x[k] + low * (here.axes[k][0] * cos(angle) + here.axes[k][1] * sin(angle));
 }
 
 static void add_array(text *t, const char *name, const char *type, int width)
@@ -206,7 +206,7 @@ int particles_outline(run *r, error *err)
              n * (OUTLINE + 1), n);
     add_array(&s, "Points", "Float64", 3);
     for (int k = 0; k < n; k++) {
-        text_add(&s, "%.9g %.9g %.9g\n", p->particle[k].x[0], p->particle[k].x[1], p->particle[k].x[2]);
+        text_add(&s, "%.9g %.9g %.9g\n", p->particle[k].at.x[0], p->particle[k].at.x[1], p->particle[k].at.x[2]);
         for (int i = 0; i < OUTLINE; i++) {
             double x[3];
 

@@ -172,7 +172,7 @@ static void printed_blocks_of(const opened *k, const bodies_state *s, bodies_blo
 
     for (int i = 0; i < BODIES; i++) {
         body[i].rho = p->particle[i].density;
-        memcpy(body[i].x, p->particle[i].x, sizeof body[i].x);
+        memcpy(body[i].x, p->particle[i].at.x, sizeof body[i].x);
     }
     printed_cell_make(p->dim, p->mesh.type->simplex, &c);
     assert_int_equal(bodies_blocks_create(b, p->mesh.n_node, p->n_particle), 0);

@@ -55,9 +55,9 @@ static moved move_body(int dim, int turns)
     assert_int_equal(problem_initial(p, &err), 0);
     for (int step = 0; step < 3; step++) {
         for (int b = 0; step && b < dim; b++)
-            p->particle[0].x[b] += way[b];
+            p->particle[0].at.x[b] += way[b];
         if (step && turns)
-            particle_turn(&p->particle[0], turn);
+            pose_turn(&p->particle[0].at, p->dim, turn);
         if (step < 2)
             problem_move(p, MOVE_REMEMBER, 0, 0, NULL, NULL, &err);
         if (step == 0)
@@ -165,7 +165,7 @@ static void what_a_body_carries_is_steady_along_its_path(void **state)
         for (int side = 0; side < 2 * dim; side++)
             for (int body = 0; body < 2; body++) {
                 const particle *q = &p->particle[body];
-                double x[3] = {q->x[0], q->x[1], q->x[2]}, w[3] = {0}, h[3], ignored[3];
+                double x[3] = {q->at.x[0], q->at.x[1], q->at.x[2]}, w[3] = {0}, h[3], ignored[3];
                 int64_t cell;
                 int moves;
 

@@ -28,15 +28,15 @@ static particle body(int dim, int kind)
                   .density = 1};
     error err;
 
-    p.x[0] = 0.47, p.x[1] = 0.52, p.x[2] = dim == 3 ? 0.49 : 0;
-    p.angle = 0.4;
-    p.q[0] = cos(0.3), p.q[1] = sin(0.3) * 0.6, p.q[3] = sin(0.3) * 0.8;
+    p.at.x[0] = 0.47, p.at.x[1] = 0.52, p.at.x[2] = dim == 3 ? 0.49 : 0;
+    p.at.angle = 0.4;
+    p.at.q[0] = cos(0.3), p.at.q[1] = sin(0.3) * 0.6, p.at.q[3] = sin(0.3) * 0.8;
     assert_int_equal(shape_measure(&p.shape, &err), 0);
     return p;
 }
 
 /* Volume, first and second moments of the corrected weights, by an integration of its own. */
-static void moments(const cut_rule *r, const mesh *m, const particle *p, const int32_t *cell, const double *w,
+static void moments(const cut_rule *r, const mesh *m, const solid *p, const int32_t *cell, const double *w,
                     int64_t n, double *volume, double *first, double second[3][3])
 {
     *volume = 0;
@@ -53,16 +53,16 @@ static void moments(const cut_rule *r, const mesh *m, const particle *p, const i
                     x[k] += b[a] * m->x[(int64_t)m->cell[(int64_t)cell[i] * m->type->n_node + a] * m->dim + k];
             *volume += v;
             for (int k = 0; k < m->dim; k++) {
-                first[k] += v * (x[k] - p->x[k]);
+                first[k] += v * (x[k] - p->at.x[k]);
                 for (int l = 0; l < m->dim; l++)
-                    second[k][l] += v * (x[k] - p->x[k]) * (x[l] - p->x[l]);
+                    second[k][l] += v * (x[k] - p->at.x[k]) * (x[l] - p->at.x[l]);
             }
         }
 }
 
 typedef struct surface_sum {
     double area, flux, n[3];
-    const particle *p;
+    const solid *p;
 } surface_sum;
 
 static void sum_surface(void *ctx, const double *xi, const double *x, const double *nds)
@@ -71,10 +71,10 @@ static void sum_surface(void *ctx, const double *xi, const double *x, const doub
     double size = 0;
 
     (void)xi;
-    for (int k = 0; k < s->p->shape.dim; k++) {
+    for (int k = 0; k < s->p->shape->dim; k++) {
         size += nds[k] * nds[k];
         s->n[k] += nds[k];
-        s->flux += (x[k] - s->p->x[k]) * nds[k];
+        s->flux += (x[k] - s->p->at.x[k]) * nds[k];
     }
     s->area += sqrt(size);
 }
@@ -91,7 +91,8 @@ static void volume_and_surface_of_smooth_bodies(void **state)
         int dim = 2 + t / 2;
         double a = 0.21, b = 0.13, e, area, volume = 0;
         particle p = body(dim, SHAPE_ELLIPSOID);
-        surface_sum s = {.p = &p};
+        solid here;
+        surface_sum s = {.p = &here};
         cut_rule r;
         mesh m;
 
@@ -101,12 +102,13 @@ static void volume_and_surface_of_smooth_bodies(void **state)
         area = dim == 3 ? 2 * M_PI * b * b * (1 + a / (b * e) * asin(e)) : 0;
         for (int k = 0; dim == 2 && k < 1000; k++) /* trapezoidal rule: exact for a periodic integrand */
             area += 2 * M_PI / 1000 * hypot(a * sin(2 * M_PI * k / 1000), b * cos(2 * M_PI * k / 1000));
+        here = solid_at(&p.shape, &p.at);
         make(&m, dim, t % 2);
         assert_int_equal(cut_rule_create(&r, m.type, &err), 0);
         for (int32_t c = 0; c < m.n_cell; c++) {
             double w[CUT_MAX_POINTS];
 
-            cut_cell(&r, &m, c, &p, w, sum_surface, &s);
+            cut_cell(&r, &m, c, s.p, w, sum_surface, &s);
             for (int q = 0; q < r.n; q++)
                 volume += w[q] * pow(m.h[c], dim) / m.type->measure;
         }
@@ -133,7 +135,8 @@ static void surface_of_bodies_with_edges(void **state)
         for (int k = 0; k < dim - 1; k++)
             for (int turned = 0; turned < 2; turned++) {
                 particle p = body(dim, kinds[k]);
-                surface_sum s = {.p = &p};
+                solid here;
+                surface_sum s = {.p = &here};
                 const double *h = p.shape.half;
                 double area = dim == 2                ? 4 * (h[0] + h[1])
                               : kinds[k] == SHAPE_BOX ? 8 * (h[0] * h[1] + h[1] * h[2] + h[2] * h[0])
@@ -142,15 +145,16 @@ static void surface_of_bodies_with_edges(void **state)
                 mesh m;
 
                 if (!turned) {
-                    p.angle = p.q[1] = p.q[3] = 0;
-                    p.q[0] = 1;
+                    p.at.angle = p.at.q[1] = p.at.q[3] = 0;
+                    p.at.q[0] = 1;
                 }
+                here = solid_at(&p.shape, &p.at);
                 make(&m, dim, 0);
                 assert_int_equal(cut_rule_create(&r, m.type, &err), 0);
                 for (int32_t c = 0; c < m.n_cell; c++) {
                     double w[CUT_MAX_POINTS];
 
-                    cut_cell(&r, &m, c, &p, w, sum_surface, &s);
+                    cut_cell(&r, &m, c, s.p, w, sum_surface, &s);
                 }
                 print_message("# %s %d in %dD%s: area %.1e, closure %.1e\n", "kind", kinds[k], dim,
                               turned ? ", turned" : "", s.area / area - 1,
@@ -174,7 +178,8 @@ static void volume_centroid_and_inertia_are_exact(void **state)
             mesh m;
             cut_rule r;
             particle p;
-            double *w, volume, first[3], second[3][3], rotation[3][3], raw;
+            solid here;
+            double *w, volume, first[3], second[3][3], raw;
             double(*shift)[3];
             int32_t *cell;
             int64_t n = 0;
@@ -183,18 +188,18 @@ static void volume_centroid_and_inertia_are_exact(void **state)
                 continue;
             make(&m, dim, t % 2);
             p = body(dim, kinds[k]);
+            here = solid_at(&p.shape, &p.at);
             assert_int_equal(cut_rule_create(&r, m.type, &err), 0);
             w = malloc((size_t)(m.n_cell * r.n) * sizeof *w);
             cell = malloc((size_t)m.n_cell * sizeof *cell);
             shift = calloc((size_t)m.n_cell, sizeof *shift);
             for (int32_t e = 0; e < m.n_cell; e++)
-                if (cut_cell(&r, &m, e, &p, w + n * r.n, NULL, NULL))
+                if (cut_cell(&r, &m, e, &here, w + n * r.n, NULL, NULL))
                     cell[n++] = e;
-            moments(&r, &m, &p, cell, w, n, &raw, first, second);
+            moments(&r, &m, &here, cell, w, n, &raw, first, second);
             assert_true(fabs(raw / p.shape.volume - 1) < 0.02); /* the cut itself is near */
-            assert_int_equal(cut_correct(&r, &m, &p, cell, (const double(*)[3])shift, w, n, 1, &err), 0);
-            moments(&r, &m, &p, cell, w, n, &volume, first, second);
-            particle_rotation(&p, rotation);
+            assert_int_equal(cut_correct(&r, &m, &here, cell, (const double(*)[3])shift, w, n, 1, &err), 0);
+            moments(&r, &m, &here, cell, w, n, &volume, first, second);
             assert_true(fabs(volume / p.shape.volume - 1) < 1e-12);
             for (int i = 0; i < dim; i++) {
                 assert_true(fabs(first[i]) < 1e-12 * p.shape.volume);
@@ -203,7 +208,7 @@ static void volume_centroid_and_inertia_are_exact(void **state)
 
                     for (int a = 0; a < dim; a++)
                         for (int b = 0; b < dim; b++)
-                            exact += rotation[i][a] * p.shape.moment[a][b] * rotation[j][b];
+                            exact += here.axes[i][a] * p.shape.moment[a][b] * here.axes[j][b];
                     assert_true(fabs(second[i][j] - exact) < 1e-12 * p.shape.volume);
                 }
             }
@@ -237,10 +242,10 @@ static void small_turns_add_up(void **state)
 
     (void)state;
     for (int i = 0; i < 1000; i++)
-        particle_turn(&p, (double[3]){0.001, -0.002, 0.0005});
-    particle_turn(&q, (double[3]){1, -2, 0.5});
+        pose_turn(&p.at, 3, (double[3]){0.001, -0.002, 0.0005});
+    pose_turn(&q.at, 3, (double[3]){1, -2, 0.5});
     for (int k = 0; k < 4; k++)
-        assert_true(fabs(p.q[k] - q.q[k]) < 1e-12);
+        assert_true(fabs(p.at.q[k] - q.at.q[k]) < 1e-12);
 }
 
 static void the_grid_finds_the_cells_that_a_look_at_all_finds(void **state)
