@@ -216,17 +216,17 @@ typedef struct workspace {
 
 int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err);
 int plan_workspace(const assembly *a, workspace *w, error *err);
-int points_data_update(assembly *a, assembly_class *c, workspace *w, double t, error *err);
-/* History along moving paths at all points near bodies; once per placement of these (frame.c). */
-int frame_update(const assembly *a, assembly_class *c, workspace *w, const moving_frame *f, error *err);
+int inputs_functions(assembly *a, assembly_class *c, workspace *w, double t, error *err);
+/* History along moving paths at all points near bodies; once per placement of these (history.c). */
+int history_update(const assembly *a, assembly_class *c, workspace *w, const moving_frame *f, error *err);
 /* Of the batch: takes an input du/dt over to the moving paths; w->dof: nodal values of its field now. */
-void frame_take(const assembly *a, const assembly_class *c, const assembly_state *s, const plan_input *in,
+void history_take(const assembly *a, const assembly_class *c, const assembly_state *s, const plan_input *in,
                 workspace *w);
 /* Its part of the Jacobian: d(du/dt) = shift du - w . grad du. */
-void frame_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
+void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
                     size_t ld, const double *velocity, double *block);
-void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
-void points_inputs(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
+void inputs_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                    workspace *w);
 /* Whether any term of the class takes part in this state. */
 int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s);
@@ -235,6 +235,14 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
 void element_vector(const assembly *a, const assembly_class *c, int field, workspace *w);
 /* 0 if the fields do not couple. */
 int element_matrix(const assembly *a, const assembly_class *c, int row_field, int col_field, workspace *w);
+
+/* Item of lane l of a batch; lanes past the end repeat the last one. */
+static inline int64_t assemble_item(const assembly_class *c, int64_t batch, int lane)
+{
+    int64_t first = c->batch[batch], last = c->batch[batch + 1] - 1, i = first + lane;
+
+    return i < last ? i : last;
+}
 
 static inline int assemble_padded(int n)
 {

@@ -78,7 +78,7 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
                           ld, (double *)(w->block + block * (size_t)c->n_q));
             block = p->slope[k] >= 0 && w->frame ? c->block[p->out[o]][p->slope[k]] : SIZE_MAX;
             if (block != SIZE_MAX && (s->frame->fields >> c->trial[p->slope[k]].field & 1))
-                frame_jacobian(&t->out[o], &t->in[k], c->trial[p->slope[k]].n_comp, p->use->factor,
+                history_jacobian(&t->out[o], &t->in[k], c->trial[p->slope[k]].n_comp, p->use->factor,
                                jac[o * t->n_in + k], dim, ld, (const double *)w->frame,
                                (double *)(w->block + block * (size_t)c->n_q));
         }

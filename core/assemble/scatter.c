@@ -103,8 +103,8 @@ static int run_batch(const assembly *a, const assembly_class *c, const assembly_
     if (!on)
         return 0;
 
-    points_geometry(a, c, batch, w);
-    points_inputs(a, c, s, batch, w);
+    geometry_points(a, c, batch, w);
+    inputs_values(a, c, s, batch, w);
     if (evaluate_terms(a, c, s, batch, value != NULL, diagnose, w)) {
         w->failed_batch = batch;
         return 1;
@@ -153,8 +153,8 @@ int assembly_run(assembly *a, const assembly_state *s, double *residual, double 
 
         if (!evaluate_any(a, c, s))
             continue;
-        TRY(points_data_update(a, c, &a->work[0], s->t, err));
-        TRY(frame_update(a, c, &a->work[0], s->frame, err));
+        TRY(inputs_functions(a, c, &a->work[0], s->t, err));
+        TRY(history_update(a, c, &a->work[0], s->frame, err));
         for (int i = 0; i < a->n_thread; i++)
             a->work[i].failed_batch = -1;
 #pragma omp parallel for num_threads(c->n_slab) schedule(static, 1)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Points of a batch: where they are, their weights, the basis functions and the fields there. */
+ * Points of a batch: where they are, their weights, and the basis functions there. */
 #include "assemble/assemble.h"
 
 #include <math.h>
@@ -11,14 +11,6 @@ static v8 v8_sqrt(v8 a)
     for (int l = 0; l < 8; l++)
         a[l] = sqrt(a[l]);
     return a;
-}
-
-/* Cell of lane l; lanes past the end repeat the last cell. */
-static int64_t item_of(const assembly_class *c, int64_t batch, int lane)
-{
-    int64_t first = c->batch[batch], last = c->batch[batch + 1] - 1, i = first + lane;
-
-    return i < last ? i : last;
 }
 
 /* Jacobian matrix of the mapping at q, j[a][b] = dx_a / dxi_b, its inverse and determinant. */
@@ -89,7 +81,7 @@ static void particle_slots(const assembly *a, const assembly_class *c, int64_t b
     int dim = s->mesh->dim, nq = c->n_q;
 
     for (int l = 0; l < 8; l++) {
-        int64_t attached = c->group[item_of(c, batch, l)] - s->mesh->n_cell;
+        int64_t attached = c->group[assemble_item(c, batch, l)] - s->mesh->n_cell;
         int32_t id = s->attached_particle[attached];
         const particle *p = &a->particle[id];
 
@@ -111,7 +103,7 @@ static void points_of_pairs(const assembly *a, const assembly_class *c, int64_t 
     for (int k = 0; k <= ASSEMBLE_PAD; k++)
         w->basis[0][0][k] = zero + (k == 0 ? 1.0 : k == 1 ? -1.0 : 0.0);
     for (int l = 0; l < 8; l++) {
-        const near_pair *near = &c->pair[item_of(c, batch, l)];
+        const near_pair *near = &c->pair[assemble_item(c, batch, l)];
 
         w->h[0][l] = near->h;
         w->gap[0][l] = near->gap;
@@ -135,7 +127,7 @@ static void points_of_surface(const assembly *a, const assembly_class *c, int64_
     int dim = m->dim, nq = c->n_q;
 
     for (int l = 0; l < 8; l++) {
-        int64_t item = item_of(c, batch, l), cell = c->cell[item];
+        int64_t item = assemble_item(c, batch, l), cell = c->cell[item];
 
         for (int q = 0; q < nq; q++) {
             const double *xi = c->ref[item * nq + q];
@@ -182,7 +174,7 @@ static void points_of_roots(const assembly *a, const assembly_class *c, int64_t 
 
     for (int l = 0; l < 8; l++)
         for (int q = 0; q < nq; q++) {
-            int64_t item = item_of(c, batch, l);
+            int64_t item = assemble_item(c, batch, l);
 
             w->w[q][l] *= c->weight[item];
             for (int order = 1; order < 3; order++) {
@@ -196,7 +188,7 @@ static void points_of_roots(const assembly *a, const assembly_class *c, int64_t 
         }
 }
 
-void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
+void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
 {
     const mesh *m = a->space->mesh;
     const fe_cell *type = m->type;
@@ -213,7 +205,7 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
         return;
     }
     for (int l = 0; l < 8; l++) {
-        int64_t cell = c->cell[item_of(c, batch, l)];
+        int64_t cell = c->cell[assemble_item(c, batch, l)];
 
         h[l] = m->h[cell];
         on[l] = !c->off || !c->off[cell];
@@ -233,7 +225,7 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
         }
         if (c->weight && c->where != PF_CUT)
             for (int l = 0; l < 8; l++)
-                w->w[q][l] = det[l] * c->weight[item_of(c, batch, l) * nq + q];
+                w->w[q][l] = det[l] * c->weight[assemble_item(c, batch, l) * nq + q];
         else
             w->w[q] = det * c->rule[f].w[q] * on;
         w->h[q] = h;
@@ -267,113 +259,4 @@ void points_geometry(const assembly *a, const assembly_class *c, int64_t batch, 
         points_of_roots(a, c, batch, w);
     if (c->where == PF_SOLID)
         particle_slots(a, c, batch, w);
-}
-
-/* Nodal values of a field on the items of a batch, dof[comp][i]; zero where there is no carrier (a wall). */
-static void gather(const assembly *a, const assembly_class *c, int64_t batch, int field, const double *x, v8 *dof)
-{
-    const space *s = a->space;
-    int n = c->n_basis[s->field[field].order], n_comp = s->field[field].n_comp;
-    int on_cells = c->where != PF_CUT && s->field[field].order > 0;
-
-    for (int l = 0; l < 8; l++) {
-        int64_t item = item_of(c, batch, l), group = c->group[item];
-        const int32_t *node = on_cells ? s->mesh->cell + (int64_t)c->cell[item] * s->mesh->type->n_node : NULL;
-
-        for (int i = 0; i < n; i++) {
-            int32_t carrier = on_cells ? node[assemble_local(s, field, i)] /* shows its master's unknowns */
-                                       : space_carrier(s, group, assemble_item_local(c, s, field, i));
-
-            for (int k = 0; k < n_comp; k++)
-                dof[k * n + i][l] = carrier < 0 ? 0 : x[s->first[field][carrier] + k];
-        }
-    }
-}
-
-static void interpolate(const workspace *w, const plan_input *in, int order, int n, int n_comp, int nq, int dim)
-{
-    v8 *restrict out = w->in + in->at * (size_t)nq;
-    int grad = in->eval == PF_GRAD, div = in->eval == PF_DIV;
-
-    memset(out, 0, (size_t)(in->n_comp * nq) * sizeof *out);
-    for (int a = 0; a < n_comp; a++)
-        for (int k = grad || div ? 1 : 0; k <= (grad || div ? dim : 0); k++) {
-            v8 *restrict to = out + (grad ? (a * dim + k - 1) * nq : div ? 0 : a * nq);
-
-            if (div && k != a + 1)
-                continue;
-            for (int i = 0; i < n; i++) {
-                v8 u = w->dof[a * n + i];
-                const v8 *restrict b = w->basis[order][k] + i * nq;
-
-                for (int q = 0; q < nq; q++)
-                    to[q] += u * b[q];
-            }
-        }
-}
-
-void points_inputs(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch, workspace *w)
-{
-    const space *sp = a->space;
-    int nq = c->n_q, dim = sp->mesh->dim;
-    const double *gathered = NULL;
-    int gathered_field = -1;
-
-    w->frame = s->frame && c->frame_at && c->frame_at[batch] >= 0 ? c->frame + c->frame_at[batch] : NULL;
-    for (int k = 0; k < c->n_input; k++) {
-        const plan_input *in = &c->input[k];
-        const double *from = in->eval == PF_DOT ? s->dot : in->eval == PF_OLD ? s->old : s->x;
-        v8 *out = w->in + in->at * (size_t)nq;
-
-        if (in->field < 0) {
-            for (int i = 0; i < in->n_comp; i++)
-                for (int q = 0; q < nq; q++)
-                    out[i * nq + q] =
-                        in->table ? in->table[(batch * in->n_comp + i) * nq + q] : (v8){0} + in->data->constant[i];
-            continue;
-        }
-        if (from != gathered || in->field != gathered_field) {
-            gather(a, c, batch, in->field, from, w->dof);
-            gathered = from;
-            gathered_field = in->field;
-        }
-        interpolate(w, in, sp->field[in->field].order, c->n_basis[sp->field[in->field].order],
-                    sp->field[in->field].n_comp, nq, dim);
-        if (in->eval == PF_DOT && w->frame && (s->frame->fields >> in->field & 1)) {
-            gather(a, c, batch, in->field, s->x, w->dof);
-            gathered = s->x;
-            frame_take(a, c, s, in, w);
-        }
-    }
-}
-
-/* Values of the case's functions at all points; once per time, on one thread (Lua has one). */
-int points_data_update(assembly *a, assembly_class *c, workspace *w, double t, error *err)
-{
-    int any = 0, nq = c->n_q, dim = a->space->mesh->dim;
-
-    for (int k = 0; k < c->n_input; k++)
-        any |= c->input[k].table != NULL;
-    if (!any || (c->data_ready && c->data_time == t))
-        return 0;
-    for (int64_t b = 0; b < c->n_batch; b++) {
-        points_geometry(a, c, b, w);
-        for (int k = 0; k < c->n_input; k++) {
-            plan_input *in = &c->input[k];
-
-            for (int q = 0; in->table && q < nq; q++)
-                for (int l = 0; l < 8; l++) {
-                    double x[3] = {0}, v[VALUE_MAX];
-
-                    for (int d = 0; d < dim; d++)
-                        x[d] = w->x[d * nq + q][l];
-                    TRY(value_at(in->data, x, t, v, err));
-                    for (int i = 0; i < in->n_comp; i++)
-                        in->table[(b * in->n_comp + i) * nq + q][l] = v[i];
-                }
-        }
-    }
-    c->data_time = t;
-    c->data_ready = 1;
-    return 0;
 }

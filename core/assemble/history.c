@@ -36,7 +36,7 @@ static void stay(const assembly *a, const assembly_class *c, const workspace *w,
     }
 }
 
-int frame_update(const assembly *a, assembly_class *c, workspace *w, const moving_frame *f, error *err)
+int history_update(const assembly *a, assembly_class *c, workspace *w, const moving_frame *f, error *err)
 {
     const space *s = a->space;
     int dim = s->mesh->dim, nq = c->n_q, n_comp;
@@ -62,7 +62,7 @@ int frame_update(const assembly *a, assembly_class *c, workspace *w, const movin
 
         if (c->frame_at[b] < 0)
             continue;
-        points_geometry(a, c, b, w);
+        geometry_points(a, c, b, w);
         for (int l = 0; l < 8; l++) {
             int64_t item = c->batch[b] + l;
 
@@ -82,7 +82,7 @@ int frame_update(const assembly *a, assembly_class *c, workspace *w, const movin
     return 0;
 }
 
-void frame_take(const assembly *a, const assembly_class *c, const assembly_state *s, const plan_input *in,
+void history_take(const assembly *a, const assembly_class *c, const assembly_state *s, const plan_input *in,
                 workspace *w)
 {
     const space_field *field = &a->space->field[in->field];
@@ -108,7 +108,7 @@ void frame_take(const assembly *a, const assembly_class *c, const assembly_state
     }
 }
 
-void frame_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
+void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
                     size_t ld, const double *velocity, double *block)
 {
     int oc = out->eval == PF_DIV ? dim : term_components(out->shape, dim), ic = term_components(in->shape, dim);

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What terms read at the points of a batch: fields, interpolated from nodal values, and the case's own functions. */
+#include "assemble/assemble.h"
+
+#include <string.h>
+
+/* Nodal values of a field on the items of a batch, dof[comp][i]; zero where there is no carrier (a wall). */
+static void gather(const assembly *a, const assembly_class *c, int64_t batch, int field, const double *x, v8 *dof)
+{
+    const space *s = a->space;
+    int n = c->n_basis[s->field[field].order], n_comp = s->field[field].n_comp;
+    int on_cells = c->where != PF_CUT && s->field[field].order > 0;
+
+    for (int l = 0; l < 8; l++) {
+        int64_t item = assemble_item(c, batch, l), group = c->group[item];
+        const int32_t *node = on_cells ? s->mesh->cell + (int64_t)c->cell[item] * s->mesh->type->n_node : NULL;
+
+        for (int i = 0; i < n; i++) {
+            int32_t carrier = on_cells ? node[assemble_local(s, field, i)] /* shows its master's unknowns */
+                                       : space_carrier(s, group, assemble_item_local(c, s, field, i));
+
+            for (int k = 0; k < n_comp; k++)
+                dof[k * n + i][l] = carrier < 0 ? 0 : x[s->first[field][carrier] + k];
+        }
+    }
+}
+
+static void interpolate(const workspace *w, const plan_input *in, int order, int n, int n_comp, int nq, int dim)
+{
+    v8 *restrict out = w->in + in->at * (size_t)nq;
+    int grad = in->eval == PF_GRAD, div = in->eval == PF_DIV;
+
+    memset(out, 0, (size_t)(in->n_comp * nq) * sizeof *out);
+    for (int a = 0; a < n_comp; a++)
+        for (int k = grad || div ? 1 : 0; k <= (grad || div ? dim : 0); k++) {
+            v8 *restrict to = out + (grad ? (a * dim + k - 1) * nq : div ? 0 : a * nq);
+
+            if (div && k != a + 1)
+                continue;
+            for (int i = 0; i < n; i++) {
+                v8 u = w->dof[a * n + i];
+                const v8 *restrict b = w->basis[order][k] + i * nq;
+
+                for (int q = 0; q < nq; q++)
+                    to[q] += u * b[q];
+            }
+        }
+}
+
+void inputs_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch, workspace *w)
+{
+    const space *sp = a->space;
+    int nq = c->n_q, dim = sp->mesh->dim;
+    const double *gathered = NULL;
+    int gathered_field = -1;
+
+    w->frame = s->frame && c->frame_at && c->frame_at[batch] >= 0 ? c->frame + c->frame_at[batch] : NULL;
+    for (int k = 0; k < c->n_input; k++) {
+        const plan_input *in = &c->input[k];
+        const double *from = in->eval == PF_DOT ? s->dot : in->eval == PF_OLD ? s->old : s->x;
+        v8 *out = w->in + in->at * (size_t)nq;
+
+        if (in->field < 0) {
+            for (int i = 0; i < in->n_comp; i++)
+                for (int q = 0; q < nq; q++)
+                    out[i * nq + q] =
+                        in->table ? in->table[(batch * in->n_comp + i) * nq + q] : (v8){0} + in->data->constant[i];
+            continue;
+        }
+        if (from != gathered || in->field != gathered_field) {
+            gather(a, c, batch, in->field, from, w->dof);
+            gathered = from;
+            gathered_field = in->field;
+        }
+        interpolate(w, in, sp->field[in->field].order, c->n_basis[sp->field[in->field].order],
+                    sp->field[in->field].n_comp, nq, dim);
+        if (in->eval == PF_DOT && w->frame && (s->frame->fields >> in->field & 1)) {
+            gather(a, c, batch, in->field, s->x, w->dof);
+            gathered = s->x;
+            history_take(a, c, s, in, w);
+        }
+    }
+}
+
+/* Values of the case's functions at all points; once per time, on one thread (Lua has one). */
+int inputs_functions(assembly *a, assembly_class *c, workspace *w, double t, error *err)
+{
+    int any = 0, nq = c->n_q, dim = a->space->mesh->dim;
+
+    for (int k = 0; k < c->n_input; k++)
+        any |= c->input[k].table != NULL;
+    if (!any || (c->data_ready && c->data_time == t))
+        return 0;
+    for (int64_t b = 0; b < c->n_batch; b++) {
+        geometry_points(a, c, b, w);
+        for (int k = 0; k < c->n_input; k++) {
+            plan_input *in = &c->input[k];
+
+            for (int q = 0; in->table && q < nq; q++)
+                for (int l = 0; l < 8; l++) {
+                    double x[3] = {0}, v[VALUE_MAX];
+
+                    for (int d = 0; d < dim; d++)
+                        x[d] = w->x[d * nq + q][l];
+                    TRY(value_at(in->data, x, t, v, err));
+                    for (int i = 0; i < in->n_comp; i++)
+                        in->table[(b * in->n_comp + i) * nq + q][l] = v[i];
+                }
+        }
+    }
+    c->data_time = t;
+    c->data_ready = 1;
+    return 0;
+}
