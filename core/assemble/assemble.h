@@ -35,10 +35,13 @@ typedef struct near_pair {
     double size[2], density[2];      /* of each; of a wall infinite and 0 */
 } near_pair;
 
-/* Where the bodies are now: points and weights of the classes that follow them.  Weights are of the
- * reference cell, [n][points of the cut rule]. */
+/* The bodies at one instant, as the assembly needs them: points and weights of the classes that follow them, and
+ * the unknowns that are off.  Weights are of the reference cell, [n][points of the cut rule]. */
 typedef struct body_points {
-    const particle *particle;
+    int stamp;                /* another one for every placement of the bodies, never 0   */
+    const solid *body;        /* [n_body]                                                 */
+    const double *density;    /* [n_body] kg/m^3                                          */
+    const uint8_t *idle;      /* [n_dof] 1: in the matrix, but off now (identity row)     */
     const double (*shift)[3]; /* of attached pairs: from the body to its image there       */
     const uint8_t *off;       /* [n_cell] not 0: a body covers the cell or a part of it    */
     int64_t n_pair;
@@ -70,17 +73,6 @@ typedef struct moving_frame {
     /* At point x of a cell: w [dim]; history of each such field, one after the other.  0: w = 0. */
     int (*at)(void *ctx, int64_t cell, const double *x, double *w, double *history);
 } moving_frame;
-
-/* A term that the case switched on. */
-typedef struct term_use {
-    const term_plugin *plugin;
-    const pf_term *term;
-    int where; /* term->where, or PF_FLUID where the case narrows it */
-    void *params;
-    enum term_derivative how;
-    double factor;                     /* 1, or less while it is faded in             */
-    const value *data[TERM_MAX_SLOTS]; /* for PF_DATA slots                           */
-} term_use;
 
 /* One distinct quantity at the points: (field, eval), or data of one use. */
 typedef struct plan_input {
@@ -151,9 +143,11 @@ typedef struct assembly {
     const space *space;
     int n_thread, n_class;
     assembly_class *class_;
-    struct workspace *work; /* [n_thread] */
-    const particle *particle;
-    const double (*shift)[3];
+    struct workspace *work;    /* [n_thread] */
+    const body_points *bodies; /* of the last evaluation; NULL: none */
+    int bodies_stamp;          /* of those that the classes have their items from */
+    uint8_t *none_idle;        /* [n_dof] zero */
+    const uint8_t *idle;       /* [n_dof] of the last evaluation */
     arena memory;
 } assembly;
 
@@ -177,14 +171,13 @@ enum {
 typedef struct assembly_state {
     double t, dt, shift;
     const double *x, *dot, *old;
+    const body_points *bodies; /* NULL: there are none */
     const moving_frame *frame; /* NULL: all history is at a place */
+    double faded;              /* part of the terms with PF_CONTINUATION that is left out: 0 none, 1 all of them */
     uint32_t only;             /* not 0: only terms with one of these flags, or of one of these kinds */
 } assembly_state;
 
 int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int n_spec, int n_thread, error *err);
-
-/* Tells the classes that follow the bodies where these are. */
-int assembly_set_bodies(assembly *a, const body_points *b, error *err);
 
 /* residual[n_dof] (of all unknowns, fixed ones too: their rows are reactions) and, unless NULL,
  * value[nnz] of the matrix over free unknowns; both are overwritten.  With `diagnose` every
@@ -214,17 +207,21 @@ typedef struct workspace {
     arena memory;
 } workspace;
 
+/* Gives the classes that follow the bodies their items, if these are others than before (items.c). */
+int items_take(assembly *a, const body_points *b, error *err);
 int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err);
+/* Room for the values of the case's functions at the points of a class. */
+int inputs_room(arena *memory, assembly_class *c, error *err);
 int plan_workspace(const assembly *a, workspace *w, error *err);
 int inputs_functions(assembly *a, assembly_class *c, workspace *w, double t, error *err);
 /* History along moving paths at all points near bodies; once per placement of these (history.c). */
 int history_update(const assembly *a, assembly_class *c, workspace *w, const moving_frame *f, error *err);
 /* Of the batch: takes an input du/dt over to the moving paths; w->dof: nodal values of its field now. */
 void history_take(const assembly *a, const assembly_class *c, const assembly_state *s, const plan_input *in,
-                workspace *w);
+                  workspace *w);
 /* Its part of the Jacobian: d(du/dt) = shift du - w . grad du. */
 void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
-                    size_t ld, const double *velocity, double *block);
+                      size_t ld, const double *velocity, double *block);
 void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
 void inputs_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                    workspace *w);

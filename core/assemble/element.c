@@ -21,7 +21,7 @@ static int find_basis(const plan_basis *list, int n, int field, int grad)
 
 void element_vector(const assembly *a, const assembly_class *c, int field, workspace *w)
 {
-    const space_field *f = &a->space->field[field];
+    const field_spec *f = &a->space->field[field];
     int dim = a->space->mesh->dim, nq = c->n_q, n = c->n_basis[f->order];
 
     memset(w->vec, 0, (size_t)(f->n_comp * n) * sizeof *w->vec);
@@ -131,7 +131,7 @@ static void tile(const int *row_used, v8 *const *basis, int i0, int nq, int dim,
 int element_matrix(const assembly *as, const assembly_class *c, int row_field, int col_field, workspace *w)
 {
     const space *s = as->space;
-    const space_field *rf = &s->field[row_field], *cf = &s->field[col_field];
+    const field_spec *rf = &s->field[row_field], *cf = &s->field[col_field];
     int dim = s->mesh->dim, nq = c->n_q, coupled = 0;
     int n_row = assemble_padded(c->n_basis[rf->order]);
     int n_col = assemble_padded(c->n_basis[cf->order]);

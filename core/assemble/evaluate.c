@@ -9,7 +9,14 @@
 #include <stdio.h>
 #include <string.h>
 
-static void add_output(const assembly_class *c, const plan_use *p, double *const *out, int dim, workspace *w)
+/* Factor of a term: less than 1 while it is faded in. */
+static double strength(const assembly_state *s, const plan_use *p)
+{
+    return p->use->term->flags & PF_CONTINUATION ? 1 - s->faded : 1;
+}
+
+static void add_output(const assembly_class *c, const plan_use *p, double factor, double *const *out, int dim,
+                       workspace *w)
 {
     const pf_term *t = p->use->term;
     size_t ld = (size_t)c->n_q * PF_LANES;
@@ -24,7 +31,7 @@ static void add_output(const assembly_class *c, const plan_use *p, double *const
             const double *restrict add = from + (size_t)(t->out[o].eval == PF_DIV ? 0 : k) * ld;
 
             for (size_t i = 0; i < ld; i++)
-                row[i] += p->use->factor * add[i];
+                row[i] += factor * add[i];
         }
     }
 }
@@ -67,7 +74,7 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
     status = term_jacobian(t, p->use->how, b, in, jac, w->room);
     for (uint32_t o = 0; o < t->n_out && !status; o++)
         for (uint32_t k = 0; k < t->n_in; k++) {
-            double factor = p->use->factor * (t->in[k].eval == PF_DOT ? b->shift : 1);
+            double factor = strength(s, p) * (t->in[k].eval == PF_DOT ? b->shift : 1);
             size_t block;
 
             if (p->trial[k] < 0 || factor == 0)
@@ -78,9 +85,9 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
                           ld, (double *)(w->block + block * (size_t)c->n_q));
             block = p->slope[k] >= 0 && w->frame ? c->block[p->out[o]][p->slope[k]] : SIZE_MAX;
             if (block != SIZE_MAX && (s->frame->fields >> c->trial[p->slope[k]].field & 1))
-                history_jacobian(&t->out[o], &t->in[k], c->trial[p->slope[k]].n_comp, p->use->factor,
-                               jac[o * t->n_in + k], dim, ld, (const double *)w->frame,
-                               (double *)(w->block + block * (size_t)c->n_q));
+                history_jacobian(&t->out[o], &t->in[k], c->trial[p->slope[k]].n_comp, strength(s, p),
+                                 jac[o * t->n_in + k], dim, ld, (const double *)w->frame,
+                                 (double *)(w->block + block * (size_t)c->n_q));
         }
     return status;
 }
@@ -167,7 +174,7 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
         double *out[TERM_MAX_SLOTS], *at = (double *)w->out;
         int status;
 
-        if (p->use->factor == 0 || (s->only && !(kinds(a, p) & s->only)))
+        if (strength(s, p) == 0 || (s->only && !(kinds(a, p) & s->only)))
             continue;
         for (uint32_t k = 0; k < t->n_in; k++)
             in[k] = (double *)(w->in + c->input[p->in[k]].at * nq);
@@ -182,7 +189,7 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
         if (!status && diagnose && find_nan(p, &b, out, "output", &w->report))
             return PF_FAIL;
         if (!status) {
-            add_output(c, p, out, dim, w);
+            add_output(c, p, strength(s, p), out, dim, w);
             term_now.phase = "Jacobian";
             if (with_matrix)
                 status = add_jacobian(c, s, p, &b, in, dim, w);

@@ -81,14 +81,14 @@ static void particle_slots(const assembly *a, const assembly_class *c, int64_t b
     int dim = s->mesh->dim, nq = c->n_q;
 
     for (int l = 0; l < 8; l++) {
-        int64_t attached = c->group[assemble_item(c, batch, l)] - s->mesh->n_cell;
+        int64_t attached = c->group[assemble_item(c, batch, l)] - space_attached_group(s, 0);
         int32_t id = s->attached_particle[attached];
-        const particle *p = &a->particle[id];
+        const body_points *b = a->bodies;
 
         for (int q = 0; q < nq; q++) {
             for (int k = 0; k < dim; k++)
-                w->arm[k * nq + q][l] = w->x[k * nq + q][l] - p->at.x[k] - a->shift[attached][k];
-            w->density[q][l] = p->density;
+                w->arm[k * nq + q][l] = w->x[k * nq + q][l] - b->body[id].at.x[k] - b->shift[attached][k];
+            w->density[q][l] = b->density[id];
             w->id[q * 8 + l] = id;
         }
     }

@@ -83,9 +83,9 @@ int history_update(const assembly *a, assembly_class *c, workspace *w, const mov
 }
 
 void history_take(const assembly *a, const assembly_class *c, const assembly_state *s, const plan_input *in,
-                workspace *w)
+                  workspace *w)
 {
-    const space_field *field = &a->space->field[in->field];
+    const field_spec *field = &a->space->field[in->field];
     int dim = a->space->mesh->dim, nq = c->n_q, n = c->n_basis[field->order], at = dim;
 
     for (int k = 0; k < in->field; k++)
@@ -109,7 +109,7 @@ void history_take(const assembly *a, const assembly_class *c, const assembly_sta
 }
 
 void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
-                    size_t ld, const double *velocity, double *block)
+                      size_t ld, const double *velocity, double *block)
 {
     int oc = out->eval == PF_DIV ? dim : term_components(out->shape, dim), ic = term_components(in->shape, dim);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What terms read at the points of a batch: fields, interpolated from nodal values, and the case's own functions. */
+ * What terms read at the points of a batch: fields, interpolated from nodal values, and the case's own functions.
+ */
 #include "assemble/assemble.h"
 
 #include <string.h>
@@ -111,5 +112,14 @@ int inputs_functions(assembly *a, assembly_class *c, workspace *w, double t, err
     }
     c->data_time = t;
     c->data_ready = 1;
+    return 0;
+}
+
+int inputs_room(arena *memory, assembly_class *c, error *err)
+{
+    for (int i = 0; i < c->n_input; i++)
+        if (c->input[i].data && c->input[i].data->f)
+            ARENA_NEW(memory, c->input[i].table, c->n_batch * c->input[i].n_comp * c->n_q + 1, err);
+    c->data_ready = 0;
     return 0;
 }

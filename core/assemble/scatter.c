@@ -23,8 +23,8 @@ static void scatter_vector(const assembly *a, const assembly_class *c, int64_t b
 }
 
 /* Free columns of a field on a group: position within the columns of their carrier, or -1. */
-static void columns(const assembly_class *c, const space *s, int64_t group, int field, int n, int *local,
-                    int (*relative)[3])
+static void columns(const assembly_class *c, const space *s, const uint8_t *idle, int64_t group, int field, int n,
+                    int *local, int (*relative)[3])
 {
     for (int j = 0; j < n; j++) {
         int32_t carrier;
@@ -34,7 +34,7 @@ static void columns(const assembly_class *c, const space *s, int64_t group, int 
         for (int b = 0; b < s->field[field].n_comp; b++) {
             int32_t f = carrier < 0 ? -1 : s->free_of[s->first[field][carrier] + b];
 
-            relative[j][b] = f < 0 || s->idle[s->first[field][carrier] + b] ? -1 : (int)(f - s->node_free[carrier]);
+            relative[j][b] = f < 0 || idle[s->first[field][carrier] + b] ? -1 : (int)(f - s->node_free[carrier]);
         }
     }
 }
@@ -52,7 +52,7 @@ static void scatter_matrix(const assembly *a, const assembly_class *c, int64_t b
         int64_t group = c->group[item];
         int size = space_group_size(s, group);
 
-        columns(c, s, group, col_field, n_col, local, relative);
+        columns(c, s, a->idle, group, col_field, n_col, local, relative);
         for (int i = 0; i < n_row; i++) {
             int li = assemble_item_local(c, s, row_field, i);
             int32_t carrier = space_carrier(s, group, li), dof = carrier < 0 ? 0 : s->first[row_field][carrier];
@@ -62,7 +62,7 @@ static void scatter_matrix(const assembly *a, const assembly_class *c, int64_t b
                 int32_t row = s->free_of[dof + ra];
                 double *to;
 
-                if (row < 0 || s->idle[dof + ra])
+                if (row < 0 || a->idle[dof + ra])
                     continue;
                 to = value + s->row[row];
                 for (int b = 0; b < col_comp; b++) {
@@ -129,12 +129,12 @@ static int report(const workspace *w, const assembly_class *c, error *err)
 }
 
 /* Unknowns that are off now: their equation is x = 0. */
-static void close_idle(const space *s, double *residual, double *value)
+static void close_idle(const space *s, const uint8_t *idle, double *residual, double *value)
 {
     for (int64_t d = 0; d < s->n_dof; d++) {
         int32_t r = s->free_of[d];
 
-        if (!s->idle[d])
+        if (!idle[d])
             continue;
         residual[d] = 0;
         for (int64_t k = r >= 0 && value ? s->row[r] : 0; k < (r >= 0 && value ? s->row[r + 1] : 0); k++)
@@ -145,6 +145,7 @@ static void close_idle(const space *s, double *residual, double *value)
 
 int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err)
 {
+    TRY(items_take(a, s->bodies, err));
     memset(residual, 0, (size_t)a->space->n_dof * sizeof *residual);
     if (value)
         memset(value, 0, (size_t)a->space->row[a->space->n_free] * sizeof *value);
@@ -169,7 +170,7 @@ int assembly_run(assembly *a, const assembly_state *s, double *residual, double 
             if (run_batch(a, c, s, b, diagnose, &a->work[0], residual, value))
                 return report(&a->work[0], c, err);
     }
-    close_idle(a->space, residual, value);
+    close_idle(a->space, a->idle, residual, value);
     return 0;
 }
 
@@ -180,6 +181,8 @@ int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int 
     a->n_thread = n_thread < 1 ? 1 : n_thread;
     ARENA_NEW(&a->memory, a->class_, n_spec > 0 ? n_spec : 1, err);
     ARENA_NEW(&a->memory, a->work, a->n_thread, err);
+    ARENA_NEW(&a->memory, a->none_idle, s->n_dof + 1, err);
+    a->idle = a->none_idle;
     for (a->n_class = 0; a->n_class < n_spec; a->n_class++)
         TRY(plan_create(a, &a->class_[a->n_class], &spec[a->n_class], err));
     for (int i = 0; i < a->n_thread; i++)

@@ -17,13 +17,14 @@ static void print_parameters(const case_file *c)
 static void print_conditions(const problem *p)
 {
     for (int f = 0; f < p->space.n_field; f++) {
-        const space_field *g = &p->space.field[f];
+        const field_spec *g = &p->space.field[f];
         int any = 0;
 
         printf("  %s (%s, %s): prescribed on", g->name, g->doc, g->unit);
-        for (int i = 0; i < p->n_line; i++)
-            if (p->line[i].has_value[f] || (p->line[i].symmetry && g->n_comp > 1)) {
-                printf(" \"%s\"%s", p->line[i].name, p->line[i].has_value[f] ? "" : " (normal component)");
+        for (int i = 0; i < p->description.n_line; i++)
+            if (p->description.line[i].has_value[f] || (p->description.line[i].symmetry && g->n_comp > 1)) {
+                printf(" \"%s\"%s", p->description.line[i].name,
+                       p->description.line[i].has_value[f] ? "" : " (normal component)");
                 any = 1;
             }
         printf("%s\n", any ? "" : " no boundary");
@@ -42,15 +43,15 @@ static int check(const problem *p, const linear *l, int json)
                l->stats.cost.flops);
         return 0;
     }
-    printf("%s: ok\n", p->c->path);
-    print_parameters(p->c);
+    printf("%s: ok\n", p->description.c->path);
+    print_parameters(p->description.c);
     printf("  mesh: %lld cells (%s), %lld nodes, boundaries:", (long long)p->mesh.n_cell, p->mesh.type->name,
            (long long)p->mesh.n_node);
     for (int i = 0; i < p->mesh.n_name; i++)
         printf(" %s", p->mesh.name[i]);
     printf("\n  terms:");
-    for (int i = 0; i < p->n_use; i++)
-        printf(" %s.%s", p->use[i].plugin->d.name, p->use[i].term->name);
+    for (int i = 0; i < p->description.n_use; i++)
+        printf(" %s.%s", p->description.use[i].plugin->d.name, p->description.use[i].term->name);
     printf("\n");
     print_conditions(p);
     printf("  unknowns: %lld, of which %lld are free; matrix: %lld entries, %.3g MB\n", (long long)p->space.n_dof,
@@ -71,13 +72,21 @@ int cli_check(const cli *o, error *err)
     if (!status)
         status = problem_initial(&k->p, err);
     if (!status) {
-        assembly_state s = {.t = k->p.time.start, .dt = 1, .x = k->p.x, .dot = k->p.system.step, .old = k->p.x};
+        const time_spec *time = &k->p.description.time;
+        assembly_state s = {.t = time->start,
+                            .dt = 1,
+                            .x = k->p.state.x,
+                            .dot = k->p.system.step,
+                            .old = k->p.state.x,
+                            .bodies = problem_points(&k->p)};
 
-        s.shift = k->p.time.unsteady ? 1.5 / k->p.time.step : 0;
+        s.shift = time->unsteady ? 1.5 / time->step : 0;
         status = assembly_run(&k->p.system.assembly, &s, k->p.system.residual, k->p.system.linear.value, 1, err);
     }
     if (!status)
         status = linear_predict(&k->p.system.linear, err);
+    for (int i = 0; !status && i < k->p.warnings.n; i++)
+        fprintf(stderr, "  warning: %s\n", k->p.warnings.text[i]);
     if (!status)
         check(&k->p, &k->p.system.linear, o->json);
     cli_close(k);

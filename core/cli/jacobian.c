@@ -24,14 +24,20 @@ static int compare(problem *p, double shift, double *x, double *d, double *plus,
 {
     const space *s = &p->space;
     newton_system *sys = &p->system;
+    const uint8_t *idle = p->bodies.now ? p->bodies.now->idle : sys->assembly.none_idle;
     const double h = 1e-6;
 
     for (int k = 0; k < DIRECTIONS; k++) {
-        assembly_state st = {
-            .t = p->time.start, .dt = p->time.step, .shift = shift, .x = x, .dot = sys->step, .old = x};
+        assembly_state st = {.t = p->description.time.start,
+                             .dt = p->description.time.step,
+                             .shift = shift,
+                             .x = x,
+                             .dot = sys->step,
+                             .old = x,
+                             .bodies = problem_points(p)};
 
         for (int64_t i = 0; i < s->n_dof; i++)
-            d[i] = s->dof_field[i] == g && !s->fixed[i] && !s->idle[i] ? pseudo_random(seed) : 0;
+            d[i] = s->dof_field[i] == g && !s->fixed[i] && !idle[i] ? pseudo_random(seed) : 0;
         for (int sign = -1; sign <= 1; sign += 2) {
             for (int64_t i = 0; i < s->n_dof; i++) {
                 x[i] += sign * h * d[i];
@@ -58,7 +64,8 @@ static int all_pairs(problem *p, error *err)
 {
     const space *s = &p->space;
     newton_system *sys = &p->system;
-    double shift = p->time.unsteady ? 1.5 / p->time.step : 0, *x, *d, *plus, *minus;
+    const uint8_t *idle = p->bodies.now ? p->bodies.now->idle : sys->assembly.none_idle;
+    double shift = p->description.time.unsteady ? 1.5 / p->description.time.step : 0, *x, *d, *plus, *minus;
     unsigned seed = 1;
     int wrong = 0;
 
@@ -67,14 +74,18 @@ static int all_pairs(problem *p, error *err)
     ARENA_NEW(&p->memory, plus, s->n_dof, err);
     ARENA_NEW(&p->memory, minus, s->n_dof, err);
     for (int64_t i = 0; i < s->n_dof; i++) {
-        x[i] = p->x[i] + (s->idle[i] || s->fixed[i] & 2 ? 0 : pseudo_random(&seed));
+        x[i] = p->state.x[i] + (idle[i] || s->fixed[i] & SPACE_AWAY ? 0 : pseudo_random(&seed));
         sys->step[i] = shift * x[i];
     }
-    TRY(assembly_run(
-        &sys->assembly,
-        &(assembly_state){
-            .t = p->time.start, .dt = p->time.step, .shift = shift, .x = x, .dot = sys->step, .old = x},
-        sys->residual, sys->linear.value, 1, err));
+    TRY(assembly_run(&sys->assembly,
+                     &(assembly_state){.t = p->description.time.start,
+                                       .dt = p->description.time.step,
+                                       .shift = shift,
+                                       .x = x,
+                                       .dot = sys->step,
+                                       .old = x,
+                                       .bodies = problem_points(p)},
+                     sys->residual, sys->linear.value, 1, err));
     for (int g = 0; g < s->n_field; g++) {
         double diff[SPACE_MAX_FIELDS] = {0}, size[SPACE_MAX_FIELDS] = {0};
 

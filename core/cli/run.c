@@ -54,8 +54,9 @@ static void default_dir(const char *path, char *dir, size_t n)
 
 static void introduce(const problem *p)
 {
-    fprintf(stderr, "%s\n  %lld cells (%s), %lld unknowns (", p->c->title ? p->c->title : p->c->path,
-            (long long)p->mesh.n_cell, p->mesh.type->name, (long long)p->space.n_dof);
+    fprintf(stderr, "%s\n  %lld cells (%s), %lld unknowns (",
+            p->description.c->title ? p->description.c->title : p->description.c->path, (long long)p->mesh.n_cell,
+            p->mesh.type->name, (long long)p->space.n_dof);
     for (int f = 0; f < p->space.n_field; f++)
         fprintf(stderr, "%s%s", f ? ", " : "", p->space.field[f].name);
     fprintf(stderr, "), %d thread%s; set up in %.2g s\n", p->n_thread, p->n_thread > 1 ? "s" : "",

@@ -19,7 +19,7 @@ typedef struct block {
 static double *nodal(const space *s, int f, const double *x)
 {
     const mesh *m = s->mesh;
-    const space_field *g = &s->field[f];
+    const field_spec *g = &s->field[f];
     int width = g->n_comp == 1 ? 1 : 3, n = fe_n_basis(m->type, g->order);
     double *v = calloc((size_t)(m->n_node * width), sizeof *v);
     double basis[FE_MAX_NODES][FE_MAX_NODES], ignored[FE_MAX_NODES][3];
@@ -126,7 +126,7 @@ int vtu_write(const char *path, const space *s, const int *fields, int n_field, 
     add_array(&head, &b[nb++], "UInt8", "types", NULL, 1, types, (uint64_t)m->n_cell, &offset);
     text_add(&head, "</Cells>\n<PointData>\n");
     for (int i = 0; i < n_field; i++) {
-        const space_field *f = &s->field[fields[i]];
+        const field_spec *f = &s->field[fields[i]];
         int width = f->n_comp == 1 ? 1 : 3;
 
         add_array(&head, &b[nb++], "Float64", f->name, f->unit, width, values[i], (uint64_t)(m->n_node * width) * 8,

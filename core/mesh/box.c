@@ -11,7 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const side_name[6] = {"left", "right", "bottom", "top", "back", "front"};
+const char *mesh_box_side(int side)
+{
+    static const char *const name[6] = {"left", "right", "bottom", "top", "back", "front"};
+
+    return name[side];
+}
 
 /* Position of grid point i (of 2n+1) along direction k. */
 static double grid_position(const mesh_box *box, int k, int i)
@@ -151,7 +156,7 @@ int mesh_create_box(const mesh_box *box, mesh *m, error *err)
     TRY(fill_facets(box, m, err));
     m->n_name = 2 * m->dim;
     for (int i = 0; i < m->n_name; i++)
-        if (!(m->name[i] = arena_strdup(&m->memory, side_name[i])))
+        if (!(m->name[i] = arena_strdup(&m->memory, mesh_box_side(i))))
             return error_memory(err, "mesh names", 0);
     return 0;
 }

@@ -45,6 +45,8 @@ typedef struct mesh_box {
     const double *ticks[3];
 } mesh_box;
 
+/* Name of side 0..2 dim - 1: left, right (x), bottom, top (y), back, front (z). */
+const char *mesh_box_side(int side);
 int mesh_create_box(const mesh_box *box, mesh *m, error *err);
 
 struct pf_mesh_data;

@@ -3,6 +3,8 @@
  * From a case to a system of equations: read everything, complain about everything, then build. */
 #include "problem/problem.h"
 
+#include "base/clock.h"
+
 #include <string.h>
 
 /* In cut cells Gauss's theorem holds as exactly as their quadrature; with an outflow the constant is off by
@@ -11,8 +13,10 @@
 
 static int make_periodic(problem *p, error *err)
 {
-    for (int i = 0; i < p->n_line; i++) {
-        const char *const *name = p->line[i].periodic;
+    const description *d = &p->description;
+
+    for (int i = 0; i < d->n_line; i++) {
+        const char *const *name = d->line[i].periodic;
         int a, b;
 
         if (!name[0])
@@ -25,31 +29,43 @@ static int make_periodic(problem *p, error *err)
     return 0;
 }
 
+/* What a steady case may be continued in. */
+static void plan_continuation(problem *p)
+{
+    const description *d = &p->description;
+    continuation *c = &p->continuation;
+
+    for (int i = 0; i < d->n_use; i++)
+        c->fades |= (d->use[i].term->flags & PF_CONTINUATION) && !(d->use[i].term->flags & PF_BY_BOUNDARY);
+    for (int i = 0; i < d->n_line; i++)
+        for (int k = 0; k < d->line[i].n_flux; k++)
+            c->fades |= (d->line[i].flux[k]->term->flags & PF_CONTINUATION) != 0;
+    c->n_parameter = d->solve.n_continued;
+    for (int i = 0; i < c->n_parameter; i++) {
+        c->parameter[i] = d->solve.continued[i];
+        c->from[i] = d->solve.from[i];
+        c->to[i] = d->solve.to[i];
+    }
+}
+
 /* Terms by the points that they act on: one class for the cells, one each for what follows the bodies, one
  * for terms on all facets, one for each boundary line with fluxes. */
-static int make_system(problem *p, error *err)
+static int make_system(problem *p, registry *r, error *err)
 {
-    assembly_spec spec[PROBLEM_MAX_LINES + 8] = {{0}};
-    term_use *on[PF_PAIR + 1][ASSEMBLE_MAX_USES];
+    description *d = &p->description;
+    assembly_spec spec[DESCRIBE_MAX_LINES + PF_PAIR + 2] = {{0}};
+    term_use *on[PF_PAIR + 1][DESCRIBE_MAX_TERMS];
+    const pf_solver *solver;
     uint8_t *all;
     int n = 0, n_on[PF_PAIR + 1] = {0};
 
-    for (int i = 0; i < p->n_use; i++) {
-        term_use *u = &p->use[i];
-        int where = u->where == PF_FLUID && p->n_particle == 0 ? PF_CELL : u->where;
+    for (int i = 0; i < d->n_use; i++) {
+        term_use *u = &d->use[i];
+        int where = u->where == PF_FLUID && d->n_body == 0 ? PF_CELL : u->where;
 
         if (!(u->term->flags & PF_BY_BOUNDARY))
             on[where][n_on[where]++] = u;
     }
-    ARENA_NEW(&p->memory, p->continuation.use, p->n_use + p->n_line * ASSEMBLE_MAX_USES + 1, err);
-    p->continuation.n_use = 0;
-    for (int i = 0; i < p->n_use; i++)
-        if ((p->use[i].term->flags & PF_CONTINUATION) && !(p->use[i].term->flags & PF_BY_BOUNDARY))
-            p->continuation.use[p->continuation.n_use++] = &p->use[i];
-    for (int i = 0; i < p->n_line; i++)
-        for (int k = 0; k < p->line[i].n_flux; k++)
-            if (p->line[i].flux[k]->term->flags & PF_CONTINUATION)
-                p->continuation.use[p->continuation.n_use++] = p->line[i].flux[k];
     ARENA_NEW(&p->memory, all, p->mesh.n_facet + 1, err);
     memset(all, 1, (size_t)p->mesh.n_facet);
     for (int where = PF_CELL; where <= PF_PAIR; where++)
@@ -58,96 +74,96 @@ static int make_system(problem *p, error *err)
                                         .use = on[where],
                                         .n_use = n_on[where],
                                         .facet_on = all,
-                                        .rule = where == PF_SOLID ? &p->cut : NULL};
+                                        .rule = where == PF_SOLID ? &p->bodies.cut : NULL};
             if (where == PF_FLUID) { /* whole cells, and then cut ones */
                 spec[n] = spec[n - 1];
-                spec[n++].rule = &p->cut;
+                spec[n++].rule = &p->bodies.cut;
             }
         }
-    for (int i = 0; i < p->n_line; i++)
-        if (p->line[i].n_flux)
+    for (int i = 0; i < d->n_line; i++)
+        if (d->line[i].n_flux)
             spec[n++] = (assembly_spec){.where = PF_FACET,
-                                        .use = p->line[i].flux,
-                                        .n_use = p->line[i].n_flux,
-                                        .facet_on = p->line[i].facet};
-    TRY(registry_solver(p->r, "solver_umfpack", &p->solver, err));
-    TRY(system_create(&p->system, &p->space, spec, n, p->solver, p->n_thread, err));
-    if (p->has_surface)
+                                        .use = d->line[i].flux,
+                                        .n_use = d->line[i].n_flux,
+                                        .facet_on = p->conditions.facet[i]};
+    TRY(registry_solver(r, "solver_umfpack", &solver, err));
+    TRY(system_create(&p->system, &p->space, spec, n, solver, p->n_thread, err));
+    if (p->bodies.has_surface)
         p->system.gauge.tolerance = CUT_CLOSURE;
     return 0;
 }
 
 int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *err)
 {
-    double start = solve_seconds();
+    description *d = &p->description;
+    double start = clock_seconds();
 
     memset(p, 0, sizeof *p);
-    p->c = c;
-    p->r = r;
     p->n_thread = n_thread;
-    TRY(problem_read_mesh(p, err));
-    if (p->dim == 0)
-        p->dim = 2; /* the mesh block is wrong and said so; go on to find what else is */
-    TRY(problem_read_terms(p, err));
-    TRY(problem_read_boundaries(p, err));
-    TRY(problem_read_particles(p, err));
-    TRY(problem_read_settings(p, err));
-    TRY(case_finish(c, err));
-    TRY(problem_make_mesh(p, err));
+    TRY(describe(d, c, r, err));
+    TRY(problem_make_mesh(d, r, &p->mesh, err));
+    p->mesh_seconds = clock_seconds() - start;
+    TRY(describe_check(d, &p->mesh, err));
     TRY(make_periodic(p, err));
-    p->space.n_particle = p->n_particle;
-    TRY(space_number(&p->space, &p->mesh, err));
-    ARENA_NEW(&p->memory, p->x, p->space.n_dof, err);
-    TRY(problem_make_boundaries(p, err));
-    problem_hold_particles(p);
-    TRY(problem_make_outputs(p, err));
-    if (p->n_particle)
-        TRY(problem_make_particles(p, err));
-    else
-        TRY(space_constrain(&p->space, err));
-    TRY(make_system(p, err));
-    TRY(problem_cut(p, p->x, err));
-    p->setup_seconds = solve_seconds() - start;
+    TRY(space_number(&p->space, &d->fields, &p->mesh, d->n_body, err));
+    TRY(conditions_create(&p->conditions, d, &p->space, err));
+    TRY(bodies_create(&p->bodies, d, &p->space, &p->conditions, &p->warnings, err));
+    TRY(space_constrain(&p->space, err));
+    TRY(make_system(p, r, err));
+    plan_continuation(p);
+    p->newton = (newton_options){.tolerance = d->solve.tolerance,
+                                 .max_iterations = d->solve.max_iterations,
+                                 .linear_tolerance = d->solve.linear_tolerance};
+    TRY(state_create(&p->state, p->space.n_dof, d->n_body, err));
+    p->setup_seconds = clock_seconds() - start;
     return 0;
+}
+
+const body_points *problem_points(const problem *p)
+{
+    return p->bodies.now ? &p->bodies.now->points : NULL;
 }
 
 int problem_initial(problem *p, error *err)
 {
+    const description *d = &p->description;
     const space *s = &p->space;
+    double t = d->time.start, *to = p->state.x;
 
+    p->state.t = p->state.written = t;
     for (int f = 0; f < s->n_field; f++)
-        for (int64_t c = 0; p->has_initial[f] && c < s->n_carrier; c++) {
+        for (int64_t c = 0; d->has_initial[f] && c < s->n_carrier; c++) {
             double x[3] = {0}, v[VALUE_MAX] = {0};
 
             if (s->first[f][c] < 0 || s->field[f].support == PF_ON_PARTICLE)
                 continue;
             if (c < p->mesh.n_node)
-                memcpy(x, p->mesh.x + c * p->dim, (size_t)p->dim * sizeof *x);
-            TRY(value_at(&p->initial[f], x, p->time.start, v, err));
-            memcpy(p->x + s->first[f][c], v, (size_t)s->field[f].n_comp * sizeof *v);
+                memcpy(x, p->mesh.x + c * d->dim, (size_t)d->dim * sizeof *x);
+            TRY(value_at(&d->initial[f], x, t, v, err));
+            memcpy(to + s->first[f][c], v, (size_t)s->field[f].n_comp * sizeof *v);
         }
-    for (int k = 0; k < p->n_particle; k++) {
-        int64_t u = problem_particle_dof(p, k, PF_VECTOR), w = problem_particle_dof(p, k, PF_SPIN);
-
-        if (u >= 0)
-            TRY(value_at(&p->particle[k].velocity, (double[3]){0}, p->time.start, p->x + u, err));
-        if (w >= 0)
-            TRY(value_at(&p->particle[k].spin, (double[3]){0}, p->time.start, p->x + w, err));
+    for (int k = 0; k < d->n_body; k++)
+        p->state.pose[k] = p->state.pose_before[k] = d->body[k].start;
+    if (d->n_body) {
+        TRY(bodies_start(&p->bodies, t, to, err));
+        TRY(bodies_fill(&p->bodies, p->bodies.now, to, err));
     }
-    problem_fill(p, p->x);
-    return problem_dirichlet(p, p->time.start, p->x, err);
+    TRY(stepper_prescribe(&p->conditions, &p->bodies, t, to, err));
+    if (d->n_body)
+        bodies_clear(&p->bodies, p->bodies.now, to);
+    return 0;
 }
 
 void problem_destroy(problem *p)
 {
-    fluid_destroy(p);
-    cut_rule_destroy(&p->cut);
-    cell_grid_destroy(&p->grid);
+    state_destroy(&p->state);
     system_destroy(&p->system);
-    arena_free(&p->envelope_memory);
-    arena_free(&p->step_memory);
+    bodies_destroy(&p->bodies);
+    conditions_destroy(&p->conditions);
     space_destroy(&p->space);
     mesh_destroy(&p->mesh);
+    describe_destroy(&p->description);
+    warning_free(&p->warnings);
     arena_free(&p->memory);
     memset(p, 0, sizeof *p);
 }

@@ -9,10 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int exact_gradient(const problem *p, int f, const double *x, double t, double h, double *g, error *err)
+static int exact_gradient(const description *p, int f, const double *x, double t, double h, double *g, error *err)
 {
     static const double weight[4] = {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12}, at[4] = {-2, -1, 1, 2};
-    int n = p->space.field[f].n_comp;
+    int n = p->fields.f[f].n_comp;
 
     memset(g, 0, (size_t)(n * p->dim) * sizeof *g);
     for (int k = 0; k < p->dim; k++)
@@ -33,22 +33,23 @@ typedef struct point_data {
 } point_data;
 
 /* A point of cell e: where it is, and u_h and its gradient there. */
-static void at_point(const problem *p, int f, int64_t e, const double *xi, double weight, point_data *d)
+static void at_point(const run *r, int f, int64_t e, const double *xi, double weight, point_data *d)
 {
+    const problem *p = r->p;
     const mesh *m = &p->mesh;
     const fe_cell *c = m->type;
-    const space_field *g = &p->space.field[f];
+    const field_spec *g = &p->space.field[f];
     double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], j[3][3], inv[3][3], det;
-    int dim = p->dim, n_basis = fe_n_basis(c, g->order);
+    int dim = m->dim, n_basis = fe_n_basis(c, g->order);
 
     fe_basis(c, 2, xi, n, dn);
     memset(d, 0, sizeof *d);
     det = mesh_map(m, e, n, (const double(*)[3])dn, d->x, j);
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) {
-            int r = (b + 1) % 3, s = (b + 2) % 3, u = (a + 1) % 3, v = (a + 2) % 3;
+            int k = (b + 1) % 3, s = (b + 2) % 3, u = (a + 1) % 3, v = (a + 2) % 3;
 
-            inv[a][b] = j[r][u] * j[s][v] - j[r][v] * j[s][u];
+            inv[a][b] = j[k][u] * j[s][v] - j[k][v] * j[s][u];
         }
     d->w = weight * det;
     d->h = m->h[e];
@@ -57,7 +58,7 @@ static void at_point(const problem *p, int f, int64_t e, const double *xi, doubl
         int64_t node = g->order == 0 ? m->n_node : m->cell[e * c->n_node + (g->order == 2 ? i : c->vertex[i])];
 
         for (int k = 0; k < g->n_comp; k++) {
-            double u = p->x[p->space.first[f][node] + k];
+            double u = r->x[p->space.first[f][node] + k];
 
             d->value[k] += n[i] * u;
             for (int a = 0; a < dim; a++)
@@ -104,32 +105,12 @@ static int fine_points(int dim, int simplex, point_list *l, error *err)
     return 0;
 }
 
-/* Whether a point of a cell lies inside a body. */
-static int is_inside(const problem *p, int64_t cell, const double *x)
-{
-    const space *s = &p->space;
-
-    for (int64_t k = 0; k < p->n_covered; k++) {
-        int32_t a = p->covered[k];
-        particle image;
-        solid here;
-
-        if (s->attached_cell[a] != cell)
-            continue;
-        image = problem_image(p, a);
-        here = solid_at(&image.shape, &image.at);
-        if (solid_level(&here, x) < 0)
-            return 1;
-    }
-    return 0;
-}
-
 /* Sums of a norm. */
 typedef struct norm_sums {
     double sum, grad, size, mean, mean_exact, volume;
 } norm_sums;
 
-static int add_point(const problem *p, int f, double t, const point_data *d, norm_sums *s, error *err)
+static int add_point(const description *p, int f, double t, const point_data *d, norm_sums *s, error *err)
 {
     double u[VALUE_MAX], g[VALUE_MAX * 3];
 
@@ -138,7 +119,7 @@ static int add_point(const problem *p, int f, double t, const point_data *d, nor
     s->volume += d->w;
     s->mean += d->w * (d->value[0] - u[0]);
     s->mean_exact += d->w * u[0];
-    for (int k = 0; k < p->space.field[f].n_comp; k++) {
+    for (int k = 0; k < p->fields.f[f].n_comp; k++) {
         s->sum += d->w * (d->value[k] - u[k]) * (d->value[k] - u[k]);
         s->size += d->w * u[k] * u[k];
         for (int i = k * p->dim; i < (k + 1) * p->dim; i++)
@@ -148,26 +129,30 @@ static int add_point(const problem *p, int f, double t, const point_data *d, nor
 }
 
 /* All cells; of a field of the fluid only, the points of cut cells that are outside of the bodies. */
-static int add_cells(const problem *p, int f, double t, const point_list *whole, const point_list *fine,
-                     norm_sums *s, error *err)
+static int add_cells(const run *r, int f, double t, const point_list *whole, const point_list *fine, norm_sums *s,
+                     error *err)
 {
-    for (int64_t e = 0; e < p->mesh.n_cell; e++) {
-        int off = p->n_particle && p->fluid_only[f] ? p->fluid_off[e] : 0;
-        const point_list *l = off ? fine : whole;
+    const problem *p = r->p;
+    const placement *now = p->bodies.now;
 
-        for (int q = 0; off < 2 && q < l->n; q++) {
+    for (int64_t e = 0; e < p->mesh.n_cell; e++) {
+        int cover = now && p->bodies.fluid_only[f] ? now->cover[e] : COVER_NONE;
+        const point_list *l = cover ? fine : whole;
+
+        for (int q = 0; cover <= COVER_PART && q < l->n; q++) {
             point_data d;
 
-            at_point(p, f, e, l->x[q], l->w[q], &d);
-            if (!off || !is_inside(p, e, d.x))
-                TRY(add_point(p, f, t, &d, s, err));
+            at_point(r, f, e, l->x[q], l->w[q], &d);
+            if (!cover || bodies_at(&p->bodies, now, e, d.x, NULL) < 0)
+                TRY(add_point(&p->description, f, t, &d, s, err));
         }
     }
     return 0;
 }
 
-int norms_of_error(const problem *p, int f, double t, double *l2, double *h1, double *exact, error *err)
+int norms_of_error(const run *r, int f, double t, double *l2, double *h1, double *exact, error *err)
 {
+    const problem *p = r->p;
     const mesh *m = &p->mesh;
     norm_sums s = {0};
     point_list fine = {0};
@@ -175,9 +160,9 @@ int norms_of_error(const problem *p, int f, double t, double *l2, double *h1, do
     int status;
 
     TRY(fe_rule_cell(m->type, m->type->simplex ? 5 : 7, &rule, err));
-    status = fine_points(p->dim, m->type->simplex, &fine, err);
+    status = fine_points(m->dim, m->type->simplex, &fine, err);
     if (!status)
-        status = add_cells(p, f, t, &(point_list){rule.n, rule.x, rule.w}, &fine, &s, err);
+        status = add_cells(r, f, t, &(point_list){rule.n, rule.x, rule.w}, &fine, &s, err);
     free(fine.x);
     free(fine.w);
     TRY(status);
@@ -192,52 +177,54 @@ int norms_of_error(const problem *p, int f, double t, double *l2, double *h1, do
 }
 
 /* Adds what the bodies that move a field contribute inside of them. */
-static void add_bodies(const problem *p, int f, double *sum, double *volume)
+static void add_bodies(const run *r, double *sum, double *volume)
 {
-    const space *s = &p->space;
+    const bodies *b = &r->p->bodies;
+    const placement *now = b->now;
+    const mesh *m = &r->p->mesh;
 
-    for (int g = 0; g < s->n_field; g++)
-        if (s->field[g].support == PF_ON_PARTICLE && s->field[g].shape == PF_VECTOR && s->field[g].constrains &&
-            space_find_field(s, s->field[g].constrains) == f && p->fluid_only[f])
-            for (int64_t k = 0; k < p->n_covered; k++) {
-                int64_t a = p->covered[k];
-                int body = s->attached_particle[a];
-                for (int q = 0; q < p->cut.n; q++) {
-                    double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], x[3], j[3][3], v[3], w;
+    for (int64_t k = 0; k < now->n_covered; k++) {
+        int64_t a = now->covered[k];
+        int body = b->space->attached_particle[a];
 
-                    fe_basis(p->mesh.type, 2, p->cut.x[q], n, dn);
-                    w = p->weight[k * p->cut.n + q] *
-                        mesh_map(&p->mesh, s->attached_cell[a], n, (const double(*)[3])dn, x, j);
-                    for (int i = 0; i < p->dim; i++)
-                        x[i] -= p->shift[a][i];
-                    problem_motion(p, p->x, body, x, v);
-                    *volume += w;
-                    for (int i = 0; i < p->dim; i++)
-                        sum[i] += w * v[i];
-                }
-            }
+        for (int q = 0; q < b->cut.n; q++) {
+            double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], x[3], j[3][3], v[3], w;
+
+            fe_basis(m->type, 2, b->cut.x[q], n, dn);
+            w = now->covered_weight[k * b->cut.n + q] *
+                mesh_map(m, b->space->attached_cell[a], n, (const double(*)[3])dn, x, j);
+            for (int i = 0; i < m->dim; i++)
+                x[i] -= b->envelope.shift[a][i];
+            bodies_velocity(b, &now->body[body].at, r->x, body, x, v);
+            *volume += w;
+            for (int i = 0; i < m->dim; i++)
+                sum[i] += w * v[i];
+        }
+    }
 }
 
-int norms_mean(const problem *p, int f, double *mean, error *err)
+int norms_mean(const run *r, int f, double *mean, error *err)
 {
+    const problem *p = r->p;
     double volume = 0;
     fe_rule rule, own;
 
     TRY(fe_rule_cell(p->mesh.type, 5, &rule, err));
     memset(mean, 0, (size_t)p->space.field[f].n_comp * sizeof *mean);
     for (int64_t e = 0; e < p->mesh.n_cell; e++) {
-        const fe_rule *part = problem_points(p, f, e, &rule, &own);
+        const fe_rule *part = bodies_points(&p->bodies, p->bodies.now, f, e, &rule, &own);
 
         for (int q = 0; q < part->n; q++) {
             point_data d;
 
-            at_point(p, f, e, part->x[q], part->w[q], &d);
+            at_point(r, f, e, part->x[q], part->w[q], &d);
             volume += d.w;
             for (int k = 0; k < p->space.field[f].n_comp; k++)
                 mean[k] += d.w * d.value[k];
         }
     }
-    add_bodies(p, f, mean, &volume);
+    if (p->bodies.now && bodies_moved_field(&p->bodies) == f)
+        add_bodies(r, mean, &volume);
     for (int k = 0; k < p->space.field[f].n_comp; k++)
         mean[k] /= volume;
     return 0;

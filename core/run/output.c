@@ -19,7 +19,7 @@
 static const char axis[] = "xyz", velocity_name[] = "uvw";
 
 /* Column names of a field's components: u, v, w for the velocity; name, or name_x, for others. */
-static int component_names(const space_field *f, const char *prefix, char (*name)[96])
+static int component_names(const field_spec *f, const char *prefix, char (*name)[96])
 {
     for (int k = 0; k < f->n_comp; k++)
         if (f->n_comp == 1)
@@ -80,9 +80,9 @@ static int open_table(run *r, table *t, const char *file, columns *c, text *unit
 static int force_columns(const problem *p, const char *boundary, columns *c)
 {
     for (int f = 0; f < p->space.n_field; f++) {
-        const space_field *g = &p->space.field[f];
+        const field_spec *g = &p->space.field[f];
         char(*name)[96];
-        int n_torque = p->dim == 2 ? 1 : 3;
+        int n_torque = p->description.dim == 2 ? 1 : 3;
 
         if (!g->reaction || g->support != PF_ON_MESH)
             continue;
@@ -96,7 +96,7 @@ static int force_columns(const problem *p, const char *boundary, columns *c)
             continue;
         name = more(c, n_torque, "N m");
         for (int k = 0; name && k < n_torque; k++)
-            if (p->dim == 2)
+            if (p->description.dim == 2)
                 snprintf(name[k], 96, "%.40s.torque", boundary);
             else
                 snprintf(name[k], 96, "%.40s.t%c", boundary, axis[k]);
@@ -107,7 +107,7 @@ static int force_columns(const problem *p, const char *boundary, columns *c)
 static int open_tables(run *r, text *units, error *err)
 {
     problem *p = r->p;
-    const problem_output *o = &p->output;
+    const output_spec *o = &p->description.output;
     columns c = {0};
     char(*name)[96];
 
@@ -117,7 +117,7 @@ static int open_tables(run *r, text *units, error *err)
             return error_memory(err, "forces.csv", 0);
         strcpy(*name, "t");
         for (int i = 0; i < o->n_force; i++)
-            if (!force_columns(p, o->force_name[i], &c))
+            if (!force_columns(p, o->force[i], &c))
                 return error_memory(err, "forces.csv", 0);
         TRY(open_table(r, &r->forces, "forces.csv", &c, units, err));
     }
@@ -145,14 +145,15 @@ static int open_tables(run *r, text *units, error *err)
 static int locate_probes(run *r, error *err)
 {
     problem *p = r->p;
-    const problem_output *o = &p->output;
+    const output_spec *o = &p->description.output;
 
-    ARENA_NEW(&p->memory, r->probe_at, o->n_probe + 1, err);
+    ARENA_NEW(&r->memory, r->probe_at, o->n_probe + 1, err);
     for (int i = 0; i < o->n_probe; i++) {
         r->probe_at[i] = locate_point(&p->mesh, o->probe[i].x);
         if (r->probe_at[i].cell < 0)
             return error_set(err, ERR_CASE, "%s:%d: output: probe \"%s\" at %s lies outside the mesh",
-                             o->block->file, o->block->line, o->probe[i].name, text_point(o->probe[i].x, p->dim).s);
+                             o->block->file, o->block->line, o->probe[i].name,
+                             text_point(o->probe[i].x, p->description.dim).s);
     }
     return 0;
 }
@@ -160,13 +161,13 @@ static int locate_probes(run *r, error *err)
 static int locate_lines(run *r, error *err)
 {
     problem *p = r->p;
-    const problem_output *o = &p->output;
+    const output_spec *o = &p->description.output;
 
-    ARENA_NEW(&p->memory, r->line_at, o->n_line + 1, err);
+    ARENA_NEW(&r->memory, r->line_at, o->n_line + 1, err);
     for (int i = 0; i < o->n_line; i++) {
-        const line_probe *q = &o->line[i];
+        const line_spec *q = &o->line[i];
 
-        ARENA_NEW(&p->memory, r->line_at[i], q->n, err);
+        ARENA_NEW(&r->memory, r->line_at[i], q->n, err);
         for (int k = 0; k < q->n; k++) {
             double x[3];
 
@@ -187,22 +188,22 @@ static int write_case(run *r, error *err)
     int status;
 
     text_add(&t, "{\n  \"case\": ");
-    text_json(&t, p->c->title ? p->c->title : "");
+    text_json(&t, p->description.c->title ? p->description.c->title : "");
     text_add(&t, ",\n  \"file\": ");
-    text_json(&t, p->c->path);
+    text_json(&t, p->description.c->path);
     text_add(&t,
              ",\n  \"plugflow\": \"%s\",\n  \"dimension\": %d,\n  \"cells\": %lld,\n  \"cell\": \"%s\",\n  "
              "\"parameters\": {",
-             PF_VERSION, p->dim, (long long)p->mesh.n_cell, p->mesh.type->name);
-    for (int i = 0; i < p->c->n_param; i++) {
+             PF_VERSION, p->description.dim, (long long)p->mesh.n_cell, p->mesh.type->name);
+    for (int i = 0; i < p->description.c->n_param; i++) {
         text_add(&t, "%s", i ? ", " : "");
-        text_json(&t, p->c->param[i].name);
+        text_json(&t, p->description.c->param[i].name);
         text_add(&t, ": ");
-        text_json(&t, p->c->param[i].value);
+        text_json(&t, p->description.c->param[i].value);
     }
     text_add(&t, "},\n  \"terms\": [");
-    for (int i = 0; i < p->n_use; i++) {
-        const term_use *u = &p->use[i];
+    for (int i = 0; i < p->description.n_use; i++) {
+        const term_use *u = &p->description.use[i];
 
         text_add(&t, "%s\n    {\"term\": \"%s.%s\", \"version\": \"%s\", \"parameters\": {", i ? "," : "",
                  u->plugin->d.name, u->term->name, u->plugin->d.version);
@@ -214,7 +215,7 @@ static int write_case(run *r, error *err)
             if (q->type == PF_T_REAL) {
                 text_number(&t, *(const double *)(const void *)at);
             } else if (q->type == PF_T_VECTOR) {
-                for (int d = 0; d < p->dim; d++) {
+                for (int d = 0; d < p->description.dim; d++) {
                     text_add(&t, d ? ", " : "[");
                     text_number(&t, ((const double *)(const void *)at)[d]);
                 }
@@ -226,7 +227,7 @@ static int write_case(run *r, error *err)
         text_add(&t, "}}");
     }
     text_add(&t, "\n  ],\n  \"source\": ");
-    text_json(&t, p->c->n_source ? p->c->source[0].text : "");
+    text_json(&t, p->description.c->n_source ? p->description.c->source[0].text : "");
     text_add(&t, "\n}\n");
     snprintf(path, sizeof path, "%s/case.json", r->dir);
     status = t.failed ? error_memory(err, path, 0) : file_write(path, t.s, t.n, err);
@@ -239,16 +240,16 @@ static int make_offset(run *r, error *err)
 {
     problem *p = r->p;
 
-    ARENA_NEW(&p->memory, r->offset, p->space.n_dof, err);
-    ARENA_NEW(&p->memory, r->shown, p->space.n_dof, err);
+    ARENA_NEW(&r->memory, r->offset, p->space.n_dof, err);
+    ARENA_NEW(&r->memory, r->shown, p->space.n_dof, err);
     for (int f = 0; f < p->space.n_field; f++)
-        for (int64_t c = 0; p->has_offset[f] && c < p->mesh.n_node; c++) {
+        for (int64_t c = 0; p->description.has_offset[f] && c < p->mesh.n_node; c++) {
             double x[3] = {0}, v[VALUE_MAX] = {0};
 
             if (p->space.first[f][c] < 0)
                 continue;
-            memcpy(x, p->mesh.x + c * p->dim, (size_t)p->dim * sizeof *x);
-            TRY(value_at(&p->offset[f], x, p->time.start, v, err));
+            memcpy(x, p->mesh.x + c * p->description.dim, (size_t)p->description.dim * sizeof *x);
+            TRY(value_at(&p->description.offset[f], x, p->description.time.start, v, err));
             memcpy(r->offset + p->space.first[f][c], v, (size_t)p->space.field[f].n_comp * sizeof *v);
         }
     return 0;
@@ -257,7 +258,7 @@ static int make_offset(run *r, error *err)
 static const double *shown(run *r)
 {
     for (int64_t d = 0; d < r->p->space.n_dof; d++)
-        r->shown[d] = r->p->x[d] + r->offset[d];
+        r->shown[d] = r->x[d] + r->offset[d];
     return r->shown;
 }
 
@@ -301,8 +302,8 @@ static void count_facets(const problem *p, int boundary, int f, int n_local, uin
     for (int64_t k = 0; k < m->n_facet; k++) {
         int prescribes = 0, here = (int)(m->facet[k].names >> boundary & 1);
 
-        for (int i = 0; i < p->n_line; i++)
-            prescribes |= p->line[i].facet && p->line[i].facet[k] && p->line[i].has_value[f];
+        for (int i = 0; i < p->description.n_line; i++)
+            prescribes |= p->conditions.facet[i][k] && p->description.line[i].has_value[f];
         for (int i = 0; (prescribes || here) && i < n_local; i++) {
             int32_t node =
                 m->cell[(int64_t)m->facet[k].cell * m->type->n_node + m->type->facet[m->facet[k].local][i]];
@@ -328,7 +329,7 @@ static double *reaction(const run *r, int boundary, int f, const double *about, 
     if (mine)
         count_facets(p, boundary, f, n_local, mine, all);
     for (int32_t node = 0; mine && node < m->n_node; node++) {
-        const double *res = r->residual + (mine[node] ? s->first[f][node] : 0);
+        const double *res = r->stepper->reaction[REACTION_ALL] + (mine[node] ? s->first[f][node] : 0);
         int32_t carrier = mine[node] ? s->dof_node[s->first[f][node]] : 0; /* periodic ends are one node */
         double share = all[node] > mine[node] ? (double)mine[node] / all[node] : 1, d[3] = {0}, q[3] = {0};
 
@@ -355,7 +356,7 @@ static double *reaction(const run *r, int boundary, int f, const double *about, 
 int output_series(run *r, double t, error *err)
 {
     const problem *p = r->p;
-    const problem_output *o = &p->output;
+    const output_spec *o = &p->description.output;
     double *row = malloc((size_t)(r->forces.n_column + r->probes.n_column + 1) * sizeof *row), *at = row;
     int status = row ? 0 : error_memory(err, "tables", 0);
 
@@ -364,7 +365,7 @@ int output_series(run *r, double t, error *err)
         for (int i = 0; i < o->n_force; i++)
             for (int f = 0; f < p->space.n_field; f++)
                 if (p->space.field[f].reaction && p->space.field[f].support == PF_ON_MESH)
-                    at = reaction(r, o->force[i].boundary, f, o->force[i].about, at);
+                    at = reaction(r, mesh_find_name(&p->mesh, o->force[i]), f, o->about, at);
         status = table_add(&r->forces, row, err);
     }
     if (!status && o->n_probe) {
@@ -401,12 +402,13 @@ int output_fields(run *r, double t, error *err)
     }
     snprintf(name, sizeof name, "fields_%05d.vtu", r->n_file);
     snprintf(path, sizeof path, "%s/%s", r->dir, name);
-    TRY(vtu_write(path, &r->p->space, r->p->output.field, r->p->output.n_field, shown(r),
-                  r->p->time.unsteady ? t : NAN, err));
+    TRY(vtu_write(path, &r->p->space, r->p->description.output.field, r->p->description.output.n_field, shown(r),
+                  r->p->description.time.unsteady ? t : NAN, err));
     r->file[r->n_file] = strdup(name);
     if (!r->file[r->n_file])
         return error_memory(err, "list of files", 0);
     r->file_time[r->n_file++] = t;
+    r->p->state.written = t;
     snprintf(path, sizeof path, "%s/fields.pvd", r->dir);
     TRY(vtu_write_pvd(path, (const char *const *)r->file, r->file_time, r->n_file, err));
     TRY(particles_outline(r, err));
@@ -420,17 +422,17 @@ int output_lines(run *r, double t, error *err)
     const double *x = shown(r);
     char path[4600];
 
-    if (p->output.n_line) {
+    if (p->description.output.n_line) {
         snprintf(path, sizeof path, "%s/lines", r->dir);
         TRY(file_make_dir(path, err));
     }
-    for (int i = 0; i < p->output.n_line; i++) {
-        const line_probe *q = &p->output.line[i];
+    for (int i = 0; i < p->description.output.n_line; i++) {
+        const line_spec *q = &p->description.output.line[i];
         text s = {0};
         int status;
 
         text_add(&s, "t");
-        for (int d = 0; d < p->dim; d++)
+        for (int d = 0; d < p->description.dim; d++)
             text_add(&s, ",%c", axis[d]);
         for (int f = 0; f < p->space.n_field; f++) {
             char name[3][96];
@@ -441,7 +443,7 @@ int output_lines(run *r, double t, error *err)
         text_add(&s, "\n");
         for (int k = 0; k < q->n; k++) {
             text_number(&s, t);
-            for (int d = 0; d < p->dim; d++) {
+            for (int d = 0; d < p->description.dim; d++) {
                 text_add(&s, ",");
                 text_number(&s, q->from[d] + (q->to[d] - q->from[d]) * k / (q->n - 1));
             }
@@ -497,6 +499,7 @@ void output_close(run *r)
     free(r->file);
     free(r->file_time);
     text_free(&r->results);
+    arena_free(&r->memory);
     if (r->log_fd > 0)
         close(r->log_fd);
 }

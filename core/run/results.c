@@ -109,7 +109,7 @@ static void push_means(lua_State *l, const run *r)
 
         if (p->space.field[f].support != PF_ON_MESH)
             continue;
-        if (norms_mean(p, f, mean, &err))
+        if (norms_mean(r, f, mean, &err))
             luaL_error(l, "%s", err.text);
         lua_newtable(l);
         for (int c = 0; c < p->space.field[f].n_comp; c++) {
@@ -123,7 +123,7 @@ static void push_means(lua_State *l, const run *r)
 static void push_argument(lua_State *l, const run *r)
 {
     const table *any = r->forces.n_column ? &r->forces : r->probes.n_column ? &r->probes : &r->particles;
-    long every = any == &r->particles && r->p->n_particle ? r->p->n_particle : 1;
+    long every = any == &r->particles && r->p->bodies.n ? r->p->bodies.n : 1;
 
     lua_newtable(l);
     lua_newtable(l);
@@ -145,7 +145,7 @@ static void push_argument(lua_State *l, const run *r)
     lua_setfield(l, -2, "mean");
     push_errors(l, r->result);
     lua_setfield(l, -2, "errors");
-    lua_pushnumber(l, r->p->time.step);
+    lua_pushnumber(l, r->p->description.time.step);
     lua_setfield(l, -2, "dt");
 }
 
@@ -154,7 +154,7 @@ static int push_and_call(lua_State *l)
 {
     const run *r = lua_touserdata(l, 1);
 
-    lua_rawgeti(l, LUA_REGISTRYINDEX, case_find(r->p->c, "results", 0)->ref);
+    lua_rawgeti(l, LUA_REGISTRYINDEX, case_find(r->p->description.c, "results", 0)->ref);
     push_argument(l, r);
     lua_call(l, 1, 1);
     return 1;
@@ -167,8 +167,8 @@ static int by_key(const void *a, const void *b)
 
 int results_evaluate(run *r, error *err)
 {
-    const case_block *b = case_find(r->p->c, "results", 0);
-    lua_State *l = r->p->c->lua;
+    const case_block *b = case_find(r->p->description.c, "results", 0);
+    lua_State *l = r->p->description.c->lua;
     const char *key[256];
     int n = 0;
 
@@ -177,7 +177,7 @@ int results_evaluate(run *r, error *err)
     lua_settop(l, 0);
     lua_pushcfunction(l, push_and_call);
     lua_pushlightuserdata(l, r);
-    case_allow(r->p->c);
+    case_allow(r->p->description.c);
     if (lua_pcall(l, 1, 1, 0) != LUA_OK)
         return error_set(err, ERR_CASE, "%s", lua_tostring(l, -1) ? lua_tostring(l, -1) : "results: error");
     if (!lua_istable(l, -1))

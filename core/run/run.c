@@ -3,6 +3,8 @@
  * The course of a run: start, steps (or one steady solution), files, summary. */
 #include "run/run.h"
 
+#include "base/clock.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -67,57 +69,78 @@ static int log_solve(run *r, double t, double dt, const newton_report *report, e
         text_number(&s, report->history[i]);
     }
     text_add(&s, "]");
-    if (r->p->n_particle) {
-        double balance;
-
-        if (particles_balance(r, &balance, err)) {
-            text_free(&s);
-            return err->code;
-        }
-        text_add(&s, ", \"particles\": %d, \"kinetic_energy\": ", r->p->n_particle);
+    if (r->p->bodies.n) {
+        text_add(&s, ", \"particles\": %d, \"kinetic_energy\": ", r->p->bodies.n);
         text_number(&s, particles_energy(r));
         text_add(&s, ", \"momentum_defect\": ");
-        text_number(&s, balance);
+        text_number(&s, particles_balance(r));
     }
     status = s.failed ? error_memory(err, "log", 0) : output_event(r, "solve", s.s, err);
     text_free(&s);
     return status;
 }
 
-/* Says so if what flows in does not flow out. */
+/* A warning if what flows in does not flow out. */
 static void warn_defect(run *r)
 {
-    const problem *p = r->p;
+    problem *p = r->p;
     const gauge *g = &p->system.gauge;
     double speed = 0;
 
     for (int64_t d = 0; d < p->space.n_dof; d++)
         if (p->space.field[p->space.dof_field[d]].shape == PF_VECTOR)
-            speed = fmax(speed, fabs(p->x[d]));
+            speed = fmax(speed, fabs(r->x[d]));
     for (int f = 0; f < p->space.n_field; f++)
-        if (g->free[f] && !r->warned && fabs(g->defect[f]) > 1e-3 * speed * pow(g->volume, 1 - 1.0 / p->dim)) {
+        if (g->free[f] && !r->warned &&
+            fabs(g->defect[f]) > 1e-3 * speed * pow(g->volume, 1 - 1.0 / p->description.dim)) {
             r->warned = 1;
-            say(r,
-                "  warning: %s is free up to a constant and its equations do not add up: by %.3g (the net flow "
-                "through the "
-                "boundary, if %s is a pressure); the excess is spread over the domain. Is an outflow (natural = "
-                "true) missing?",
+            warning_add(
+                &p->warnings,
+                "%s is free up to a constant and its equations do not add up: by %.3g (the net flow through "
+                "the boundary, if %s is a pressure); the excess is spread over the domain. Is an outflow "
+                "(natural = true) missing?",
                 p->space.field[f].name, -g->defect[f], p->space.field[f].name);
         }
 }
 
-/* Says so, once, if the equations leave unknowns open. */
+/* A warning, once, if the equations leave unknowns open. */
 static void warn_singular(run *r, const newton_report *report)
 {
     if (report->singular && !r->warned_singular)
-        say(r,
-            "  warning: the equations do not determine all unknowns (%s); the residual has converged, some "
-            "unknowns (pressure inside bodies?) are arbitrary",
-            report->why);
+        warning_add(&r->p->warnings,
+                    "the equations do not determine all unknowns (%s); the residual has converged, some unknowns "
+                    "(pressure inside bodies?) are arbitrary",
+                    report->why);
     r->warned_singular |= report->singular;
 }
 
-static int steady(run *r, error *err)
+/* Says and logs the warnings that have come since the last call. */
+static int tell_warnings(run *r, error *err)
+{
+    const warning_list *w = &r->p->warnings;
+
+    for (; r->told < w->n; r->told++) {
+        text s = {0};
+        int status;
+
+        say(r, "  warning: %s", w->text[r->told]);
+        text_add(&s, "\"text\": ");
+        text_json(&s, w->text[r->told]);
+        status = s.failed ? error_memory(err, "log", 0) : output_event(r, "warning", s.s, err);
+        text_free(&s);
+        TRY(status);
+    }
+    return 0;
+}
+
+/* r->x: the solution as it is shown. */
+static void take_solution(run *r)
+{
+    memcpy(r->x, r->p->state.x, (size_t)r->p->space.n_dof * sizeof *r->x);
+    gauge_zero_mean(&r->p->system, r->x);
+}
+
+static int steady(run *r, const volatile sig_atomic_t *stop, error *err)
 {
     problem *p = r->p;
     newton_report report;
@@ -125,15 +148,16 @@ static int steady(run *r, error *err)
 
     p->system.talk = tell_newton;
     p->system.talk_ctx = r;
-    TRY(continuation_solve(&p->system, &p->continuation, &p->newton, p->x, &report, &steps, tell_continuation, r,
-                           err));
+    p->system.stop = stop;
+    p->continuation.bodies = problem_points(p);
+    TRY(continuation_solve(&p->system, &p->continuation, &p->newton, p->state.x, &report, &steps, tell_continuation,
+                           r, err));
     r->result->newton_iterations = report.total;
     r->result->last_newton = report.iterations;
     r->result->newton_order = report.order;
     r->result->newton_ratio = report.ratio;
     r->result->steps = 1;
-    TRY(log_solve(r, 0, 0, &report, err));
-    if (!report.converged && p->system.stop && *p->system.stop) {
+    if (!report.converged && stop && *stop) {
         r->result->status = "interrupted";
         return 0;
     }
@@ -146,119 +170,110 @@ static int steady(run *r, error *err)
     warn_singular(r, &report);
     say(r, "  converged in %d iterations, observed order %.1f, |r| / |r_before|^2 = %.2g", report.iterations,
         report.order, report.ratio);
-    problem_fill(p, p->x);
-    gauge_zero_mean(&p->system, p->x);
+    if (p->bodies.n)
+        TRY(bodies_fill(&p->bodies, p->bodies.now, p->state.x, err));
+    take_solution(r);
+    TRY(stepper_steady(r->stepper, err));
+    TRY(log_solve(r, 0, 0, &report, err));
     warn_defect(r);
-    TRY(newton_residual(&p->system, &(newton_time){0}, p->x, r->residual, err));
-    r->last = (newton_time){0};
     TRY(output_series(r, 0, err));
     TRY(particles_write(r, 0, err));
     TRY(output_fields(r, 0, err));
     return output_lines(r, 0, err);
 }
 
-static int one_step(run *r, stepper *s, double next, error *err)
+static int one_step(run *r, double next, error *err)
 {
     problem *p = r->p;
+    stepper *s = r->stepper;
+    const time_spec *time = &p->description.time;
     run_progress progress;
-    int before = s->newton_iterations;
+    int64_t before = p->state.newton_iterations;
 
-    TRY(stepper_advance(s, next - s->t, err));
+    TRY(stepper_advance(s, next - p->state.t, err));
+    p->state.t = next; /* steps that were halved add up to it but for round-off */
     r->result->steps++;
-    r->result->newton_iterations = s->newton_iterations;
-    r->result->halved = s->n_halved;
+    r->result->newton_iterations = (int)p->state.newton_iterations;
+    r->result->halved = (int)p->state.halved;
     warn_singular(r, &s->report);
-    memcpy(p->x, s->x, (size_t)p->space.n_dof * sizeof *p->x);
-    gauge_zero_mean(&p->system, p->x);
-    memcpy(r->residual, s->residual, (size_t)p->space.n_dof * sizeof *r->residual);
-    r->last = s->last;
-    TRY(log_solve(r, s->t, s->dt_previous, &s->report, err));
-    TRY(output_series(r, s->t, err));
-    TRY(particles_write(r, s->t, err));
+    take_solution(r);
+    warn_defect(r);
+    TRY(tell_warnings(r, err));
+    TRY(log_solve(r, p->state.t, p->state.dt_previous, &s->report, err));
+    TRY(output_series(r, p->state.t, err));
+    TRY(particles_write(r, p->state.t, err));
     progress = (run_progress){.step = r->result->steps,
-                              .steps = lround(ceil((p->time.stop - p->time.start) / p->time.step * (1 - 1e-12))),
-                              .t = s->t,
-                              .dt = s->dt_previous,
-                              .newton = s->newton_iterations - before,
+                              .steps = lround(ceil((time->stop - time->start) / time->step * (1 - 1e-12))),
+                              .t = p->state.t,
+                              .dt = p->state.dt_previous,
+                              .newton = (int)(p->state.newton_iterations - before),
                               .residual = s->report.history[s->report.iterations]};
     if (r->talk && r->talk->progress)
         r->talk->progress(r->talk->ctx, &progress);
     return 0;
 }
 
-static int march(run *r, stepper *s, const volatile sig_atomic_t *stop, error *err)
+/* Steps of the given length, with one more wherever fields are due within a step. */
+static int march(run *r, const volatile sig_atomic_t *stop, error *err)
 {
     problem *p = r->p;
-    const problem_time *time = &p->time;
-    long n = lround(ceil((time->stop - time->start) / time->step * (1 - 1e-12)));
-    double written = time->start, shown = 1e-9 * time->step;
+    const time_spec *time = &p->description.time;
+    const double every = p->description.output.every, slack = 1e-9 * time->step;
+    const long n = lround(ceil((time->stop - time->start) / time->step * (1 - 1e-12)));
+    long k = 1, files = 1;
 
     TRY(output_fields(r, time->start, err));
-    for (long k = 1; k <= n; k++) {
-        double next = k == n ? time->stop : time->start + (double)k * time->step;
+    while (k <= n) {
+        double grid = k == n ? time->stop : time->start + (double)k * time->step;
+        double due = time->start + (double)files * every;
+        int status = one_step(r, due < grid - slack ? due : grid, err);
+        error ignored;
 
-        {
-            int status = one_step(r, s, next, err);
-            error ignored;
-
-            if (status && stop && *stop) { /* the signal came within the step */
-                r->result->status = "interrupted";
-                return output_fields(r, s->t, err);
-            }
-            if (status && s->t > written) /* the last good state goes to disk */
-                output_fields(r, s->t, &ignored);
-            TRY(status);
-        }
-        warn_defect(r);
-        if (s->t >= written + p->output.every - shown || k == n) {
-            written = p->output.every * floor((s->t - time->start + shown) / p->output.every) + time->start;
-            TRY(output_fields(r, s->t, err));
+        if (status && p->state.t > p->state.written) /* the last good state goes to disk */
+            output_fields(r, p->state.t, &ignored);
+        TRY(status);
+        k += due >= grid - slack;
+        if (p->state.t >= due - slack || k > n) {
+            while (time->start + (double)files * every <= p->state.t + slack)
+                files++;
+            TRY(output_fields(r, p->state.t, err));
         }
         if (stop && *stop) {
             r->result->status = "interrupted";
+            if (p->state.t > p->state.written)
+                TRY(output_fields(r, p->state.t, err));
             break;
         }
     }
-    return output_lines(r, s->t, err);
+    return output_lines(r, p->state.t, err);
 }
 
 static int unsteady(run *r, const volatile sig_atomic_t *stop, error *err)
 {
-    problem *p = r->p;
-    stepper s;
-    int status = stepper_create(&s, &p->system, p->time.order, problem_dirichlet, p, err);
+    int status = march(r, stop, err);
 
-    if (!status) {
-        s.options = p->newton;
-        s.t = p->time.start;
-        s.geometry_iterations = p->time.geometry_iterations;
-        s.move = p->n_particle ? problem_move : NULL;
-        s.frame = p->any_fluid_only ? problem_frame : NULL;
-        memcpy(s.x, p->x, (size_t)p->space.n_dof * sizeof *s.x);
-        status = march(r, &s, stop, err);
-        r->result->last_newton = s.report.iterations;
-        r->result->newton_order = s.report.order;
-    }
-    stepper_destroy(&s);
+    r->result->last_newton = r->stepper->report.iterations;
+    r->result->newton_order = r->stepper->report.order;
     return status;
 }
 
 static int finish(run *r, error *err)
 {
-    problem *p = r->p;
-    double t = p->time.unsteady ? p->time.stop : 0;
+    const description *d = &r->p->description;
 
-    for (int f = 0; f < p->space.n_field; f++) {
+    if (strcmp(r->result->status, "ok"))
+        return 0;
+    for (int f = 0; f < d->fields.n; f++) {
         int i = r->result->n_error;
 
-        if (!p->has_exact[f] || strcmp(r->result->status, "ok"))
+        if (!d->has_exact[f])
             continue;
-        snprintf(r->result->error_norm[i].name, sizeof r->result->error_norm[i].name, "%s", p->space.field[f].name);
-        TRY(norms_of_error(p, f, t, &r->result->error_norm[i].l2, &r->result->error_norm[i].h1,
+        snprintf(r->result->error_norm[i].name, sizeof r->result->error_norm[i].name, "%s", d->fields.f[f].name);
+        TRY(norms_of_error(r, f, r->p->state.t, &r->result->error_norm[i].l2, &r->result->error_norm[i].h1,
                            &r->result->error_norm[i].l2_exact, err));
         r->result->n_error++;
     }
-    return strcmp(r->result->status, "ok") == 0 ? results_evaluate(r, err) : 0;
+    return results_evaluate(r, err);
 }
 
 static int log_start(run *r, error *err)
@@ -266,7 +281,7 @@ static int log_start(run *r, error *err)
     char line[300];
 
     snprintf(line, sizeof line, "\"cells\": %lld, \"unknowns\": %lld, \"particles\": %d, \"threads\": %d",
-             (long long)r->p->mesh.n_cell, (long long)r->p->space.n_dof, r->p->n_particle, r->p->n_thread);
+             (long long)r->p->mesh.n_cell, (long long)r->p->space.n_dof, r->p->bodies.n, r->p->n_thread);
     return output_event(r, "start", line, err);
 }
 
@@ -288,31 +303,48 @@ static const char *status_of(int code)
                                   : "failed";
 }
 
+static int prepare(run *r, error *err)
+{
+    problem *p = r->p;
+
+    ARENA_NEW(&r->memory, r->x, p->space.n_dof, err);
+    TRY(problem_initial(p, err));
+    TRY(stepper_create(r->stepper, &p->system, &p->bodies, &p->conditions, &p->state, err));
+    r->stepper->options = p->newton;
+    r->stepper->order = p->description.time.order;
+    r->stepper->geometry_iterations = p->description.time.geometry_iterations;
+    memcpy(r->x, p->state.x, (size_t)p->space.n_dof * sizeof *r->x);
+    TRY(output_open(r, err));
+    TRY(log_start(r, err));
+    return tell_warnings(r, err);
+}
+
 int run_problem(problem *p, const char *dir, const run_talk *talk, const volatile sig_atomic_t *stop,
                 run_result *result, error *err)
 {
-    run r = {.p = p, .dir = dir, .talk = talk, .result = result, .start = solve_seconds(), .log_fd = -1};
+    stepper stepper = {0};
+    run r = {.p = p,
+             .stepper = &stepper,
+             .dir = dir,
+             .talk = talk,
+             .result = result,
+             .start = clock_seconds(),
+             .log_fd = -1};
     error later;
     int status;
 
     memset(result, 0, sizeof *result);
     result->status = "ok";
     r.forces.fd = r.probes.fd = r.particles.fd = -1;
-    p->system.stop = stop;
-    ARENA_NEW(&p->memory, r.residual, p->space.n_dof, err);
-    status = problem_initial(p, err);
-    if (!status)
-        status = problem_cut(p, p->x, err);
-    if (!status)
-        status = output_open(&r, err);
-    if (!status)
-        status = log_start(&r, err);
+    status = prepare(&r, err);
     if (!status) {
-        status = p->time.unsteady ? unsteady(&r, stop, err) : steady(&r, err);
+        status = p->description.time.unsteady ? unsteady(&r, stop, err) : steady(&r, stop, err);
         if (!status)
             status = finish(&r, err);
         if (status)
             result->status = status_of(status);
+        if (tell_warnings(&r, status ? &later : err) && !status)
+            status = err->code;
         if (output_summary(&r, status ? &later : err) && !status)
             status = err->code;
         if (log_end(&r, status ? &later : err) && !status)
@@ -321,5 +353,6 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
             say(&r, "  %s", r.results.s ? r.results.s : "");
     }
     output_close(&r);
+    stepper_destroy(&stepper);
     return status;
 }

@@ -4,6 +4,7 @@
 #ifndef RUN_RUN_H
 #define RUN_RUN_H
 
+#include "base/text.h"
 #include "io/file.h"
 #include "problem/problem.h"
 
@@ -44,25 +45,27 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
 
 typedef struct run {
     problem *p;
+    stepper *stepper; /* the reactions of the last step */
     const char *dir;
     const run_talk *talk;
     run_result *result;
+    double *x; /* [n_dof] the solution, free fields with zero mean */
     table forces, probes, particles;
-    newton_time last; /* of the state that is written */
-    double *contact;  /* [n_dof] rows of some terms only */
-    double *body_row; /* room for a row of particles.csv, and a count a body */
+    double *body_row;  /* room for a row of particles.csv, and a count a body */
+    float *node_share; /* [n_node] */
     int n_body_file;
     char **body_file;
     struct located *probe_at, **line_at;
     int log_fd, warned, warned_singular;
+    int told; /* warnings said so far */
     int n_file, room;
     char **file;
     double *file_time;
     double start;
-    double *residual; /* of the last solve */
-    double *offset;   /* [n_dof] added to the solution in files */
-    double *shown;    /* [n_dof] solution + offset             */
-    text results;     /* JSON of the case's derived results */
+    double *offset; /* [n_dof] added to the solution in files */
+    double *shown;  /* [n_dof] solution + offset             */
+    text results;   /* JSON of the case's derived results */
+    arena memory;
 } run;
 
 int output_open(run *r, error *err);
@@ -73,17 +76,17 @@ int output_event(run *r, const char *event, const char *fields_json, error *err)
 int particles_open(run *r, error *err);
 double particles_energy(const run *r); /* kinetic, J */
 /* |force on the fluid + force on the bodies| by the terms that couple them, over the sum of forces on bodies. */
-int particles_balance(run *r, double *balance, error *err);
+double particles_balance(const run *r);
 int particles_write(run *r, double t, error *err); /* particles.csv, every step          */
 int particles_outline(run *r, error *err);         /* a .vtp for the file of fields just written */
 int output_summary(run *r, error *err);
 void output_close(run *r);
 
 /* |u_h - u|, |grad(u_h - u)|, |u| in L2 for a field whose exact solution the case gives. */
-int norms_of_error(const problem *p, int field, double t, double *l2, double *h1, double *exact, error *err);
+int norms_of_error(const run *r, int field, double t, double *l2, double *h1, double *exact, error *err);
 /* Mean of each component over the domain: of a field of the fluid only over the fluid, and bodies that move it
  * count with their motion. */
-int norms_mean(const problem *p, int f, double *mean, error *err);
+int norms_mean(const run *r, int f, double *mean, error *err);
 
 /* Calls the case's results(function) and leaves JSON in r->results. */
 int results_evaluate(run *r, error *err);

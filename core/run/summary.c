@@ -37,17 +37,17 @@ int output_summary(run *r, error *err)
     q->seconds_total = solve_seconds() - r->start + p->setup_seconds;
     q->peak_bytes = 1024.0 * (double)usage.ru_maxrss;
     text_add(&t, "{\n  \"status\": \"%s\",\n  \"finished\": \"%s\",\n  \"case\": ", q->status, stamp);
-    text_json(&t, p->c->title ? p->c->title : p->c->path);
+    text_json(&t, p->description.c->title ? p->description.c->title : p->description.c->path);
     number(&t, "cells", (double)p->mesh.n_cell);
     number(&t, "unknowns", (double)p->space.n_dof);
     number(&t, "free_unknowns", (double)p->space.n_free);
     number(&t, "threads", p->n_thread);
-    if (p->n_particle)
-        number(&t, "particles", p->n_particle);
+    if (p->bodies.n)
+        number(&t, "particles", p->bodies.n);
     number(&t, "steps", (double)q->steps);
     number(&t, "steps_halved", q->halved);
-    if (r->p->has_ties)
-        number(&t, "cuts_with_rootless_cells", (double)r->p->rootless);
+    if (r->p->bodies.has_ties)
+        number(&t, "cuts_with_rootless_cells", (double)r->p->bodies.rootless);
     number(&t, "newton_iterations", q->newton_iterations);
     number(&t, "newton_order", q->newton_order);
     number(&t, "gmres_iterations", q->gmres_iterations);
@@ -60,7 +60,7 @@ int output_summary(run *r, error *err)
     text_add(&t, "},\n  \"seconds\": {\"setup\": ");
     text_number(&t, p->setup_seconds);
     text_add(&t, ", \"geometry\": ");
-    text_number(&t, p->geometry_seconds);
+    text_number(&t, p->bodies.seconds);
     text_add(&t, ", \"assemble\": ");
     text_number(&t, q->seconds_assemble);
     text_add(&t, ", \"factor\": ");
@@ -73,7 +73,12 @@ int output_summary(run *r, error *err)
     text_number(&t, q->seconds_total);
     text_add(&t, "}");
     number(&t, "peak_memory_bytes", q->peak_bytes);
-    text_add(&t, ",\n  \"errors\": {");
+    text_add(&t, ",\n  \"warnings\": [");
+    for (int i = 0; i < p->warnings.n; i++) {
+        text_add(&t, "%s", i ? ", " : "");
+        text_json(&t, p->warnings.text[i]);
+    }
+    text_add(&t, "],\n  \"errors\": {");
     for (int i = 0; i < q->n_error; i++) {
         text_add(&t, "%s\"%s\": {\"l2\": ", i ? ", " : "", q->error_norm[i].name);
         text_number(&t, q->error_norm[i].l2);

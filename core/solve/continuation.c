@@ -8,19 +8,19 @@
 #include <math.h>
 #include <string.h>
 
-static void set(continuation *c, double s)
+/* The problem at s: moved parameters, or what is left out of the terms that fade in. */
+static void set(continuation *c, double s, newton_time *steady)
 {
     for (int i = 0; i < c->n_parameter; i++)
         *c->parameter[i] = s >= 1 ? c->to[i] : c->from[i] * pow(c->to[i] / c->from[i], s);
-    for (int i = 0; i < c->n_use && c->n_parameter == 0; i++)
-        c->use[i]->factor = s;
+    steady->faded = c->n_parameter == 0 ? 1 - s : 0;
 }
 
 int continuation_solve(newton_system *s, continuation *c, const newton_options *o, double *x, newton_report *report,
                        int *n_steps, continuation_talk *talk, void *ctx, error *err)
 {
     size_t n = (size_t)s->space->n_dof;
-    newton_time steady = {0};
+    newton_time steady = {.bodies = c->bodies};
     newton_options loose = *o;
     double *start, *last, *before, at = 0, previous = -1, ds = 0.25;
     int total = 0;
@@ -31,7 +31,7 @@ int continuation_solve(newton_system *s, continuation *c, const newton_options *
     if (c->n_parameter == 0) {
         TRY(newton_solve(s, &steady, o, x, report, err));
         report->total = total = report->iterations;
-        if (report->converged || c->n_use == 0 || (s->stop && *s->stop))
+        if (report->converged || !c->fades || (s->stop && *s->stop))
             return 0;
         if (talk)
             talk(ctx, 1, report->iterations, 0);
@@ -40,7 +40,7 @@ int continuation_solve(newton_system *s, continuation *c, const newton_options *
     ARENA_NEW(&s->memory, before, n, err);
     memcpy(x, start, n * sizeof *x);
     loose.tolerance = fmax(o->tolerance, 1e-6);
-    set(c, 0);
+    set(c, 0, &steady);
     TRY(newton_solve(s, &steady, &loose, x, report, err));
     total += report->iterations;
     if (talk)
@@ -51,7 +51,7 @@ int continuation_solve(newton_system *s, continuation *c, const newton_options *
         memcpy(last, x, n * sizeof *x);
         for (size_t i = 0; previous >= 0 && i < n; i++)
             x[i] += (next - at) / (at - previous) * (last[i] - before[i]);
-        set(c, next);
+        set(c, next, &steady);
         TRY(newton_solve(s, &steady, next >= 1 ? o : &loose, x, report, err));
         total += report->iterations;
         ++*n_steps;
@@ -68,7 +68,7 @@ int continuation_solve(newton_system *s, continuation *c, const newton_options *
             report->converged = ds > 1.0 / 256;
         }
     }
-    set(c, 1);
+    set(c, 1, &steady);
     report->total = total;
     return 0;
 }

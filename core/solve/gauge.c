@@ -57,7 +57,7 @@ static int has_constant(const newton_system *s, int f)
         int row_is_f = sp->dof_field[sp->dof_of[i]] == f;
         double sum = 0, size = 0;
 
-        if (sp->idle[sp->dof_of[i]])
+        if (s->assembly.idle[sp->dof_of[i]])
             continue;
 
         for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++) {
@@ -122,10 +122,10 @@ void gauge_project(newton_system *s, double *residual)
         if (!s->gauge.free[f])
             continue;
         for (int64_t d = 0; d < sp->n_dof; d++)
-            if (sp->dof_field[d] == f && !sp->idle[d])
+            if (sp->dof_field[d] == f && !s->assembly.idle[d])
                 sum += residual[d], volume += s->gauge.weight[f][d];
         for (int64_t d = 0; d < sp->n_dof; d++)
-            if (sp->dof_field[d] == f && !sp->idle[d])
+            if (sp->dof_field[d] == f && !s->assembly.idle[d])
                 residual[d] -= sum / volume * s->gauge.weight[f][d];
         s->gauge.defect[f] = sum;
     }
@@ -141,7 +141,7 @@ void gauge_pin(newton_system *s)
 
         if (!s->gauge.free[f])
             continue;
-        while (sp->dof_field[sp->dof_of[pin]] != f || sp->idle[sp->dof_of[pin]])
+        while (sp->dof_field[sp->dof_of[pin]] != f || s->assembly.idle[sp->dof_of[pin]])
             pin++;
         for (int64_t k = sp->row[pin]; k < sp->row[pin + 1]; k++) {
             int64_t j = sp->col[k];
@@ -165,12 +165,12 @@ void gauge_zero_mean(const newton_system *s, double *x)
         if (!s->gauge.free[f])
             continue;
         for (int64_t d = 0; d < sp->n_dof; d++)
-            if (sp->dof_field[d] == f && !sp->idle[d]) {
+            if (sp->dof_field[d] == f && !s->assembly.idle[d]) {
                 mean += s->gauge.weight[f][d] * x[d];
                 volume += s->gauge.weight[f][d];
             }
         for (int64_t d = 0; d < sp->n_dof; d++)
-            if (sp->dof_field[d] == f && !sp->idle[d])
+            if (sp->dof_field[d] == f && !s->assembly.idle[d])
                 x[d] -= mean / volume;
     }
 }

@@ -35,6 +35,20 @@ int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_
     return 0;
 }
 
+int system_renew(newton_system *s, error *err)
+{
+    linear_stats stats = s->linear.stats;
+    const pf_solver *solver = s->linear.solver;
+    double limit = s->linear.memory_limit;
+
+    TRY(space_constrain(s->space, err));
+    linear_destroy(&s->linear);
+    TRY(linear_create(&s->linear, solver, s->space, s->assembly.n_thread, err));
+    s->linear.stats = stats;
+    s->linear.memory_limit = limit;
+    return 0;
+}
+
 void system_destroy(newton_system *s)
 {
     assembly_destroy(&s->assembly);
@@ -53,7 +67,9 @@ static int evaluate(newton_system *s, const newton_time *time, const double *x, 
                          .x = x,
                          .dot = s->work,
                          .old = time->old,
+                         .bodies = time->bodies,
                          .frame = time->frame,
+                         .faded = time->faded,
                          .only = time->only};
     double start = solve_seconds();
     int status;

@@ -112,13 +112,18 @@ double gauge_weights(const space *s, int field, double *weight);
 
 int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_spec, const pf_solver *solver,
                   int n_thread, error *err);
+/* The pattern of the matrix is another one (space.h): numbers the free unknowns anew, with a linear solver for
+ * them. */
+int system_renew(newton_system *s, error *err);
 void system_destroy(newton_system *s);
 
 /* dot = shift x + history.  x must satisfy the Dirichlet conditions at t. */
 typedef struct newton_time {
     double t, dt, shift;
     const double *history, *old; /* NULL: steady */
+    const body_points *bodies;   /* NULL: none   */
     const moving_frame *frame;   /* NULL: none   */
+    double faded;                /* see assembly_state */
     uint32_t only;               /* not 0: terms with one of these flags only */
 } newton_time;
 
@@ -132,8 +137,8 @@ int newton_solve(newton_system *s, const newton_time *time, const newton_options
 /* --- steady states (continuation.c) --- */
 
 typedef struct continuation {
-    term_use **use; /* faded in; factor 0..1 */
-    int n_use;
+    const body_points *bodies;
+    int fades;             /* some terms can be faded in (PF_CONTINUATION) */
     double *parameter[16]; /* or: parameters moved from `from` to their value, geometrically */
     double from[16], to[16];
     int n_parameter;
@@ -143,44 +148,6 @@ typedef void continuation_talk(void *ctx, double s, int iterations, int converge
 
 int continuation_solve(newton_system *s, continuation *c, const newton_options *o, double *x, newton_report *report,
                        int *n_steps, continuation_talk *talk, void *ctx, error *err);
-
-/* --- time (time.c) --- */
-
-/* Moving bodies: what the stepper asks for.  Slots 0 and 1 hold places to come back to. */
-enum move { MOVE_REMEMBER, MOVE_RESTORE, MOVE_PREDICT, MOVE_PLACE, MOVE_KEEP };
-/* Places = remembered + dt/2 (u0 + u1); PREDICT also cuts the cells anew and zeroes in u1 what is off. */
-typedef int move_fn(void *ctx, enum move what, int slot, double dt, const double *u0, double *u1, error *err);
-
-/* Paths that history comes along near bodies: history = sum over levels of c[l] u[l], level 0 when bodies were at
- * the places of slot 0, level 1 at those that MOVE_KEEP kept.  NULL: all history stays at its place. */
-typedef const moving_frame *frame_fn(void *ctx, int levels, const double *c, const double *const *u,
-                                     const double *history);
-
-typedef int dirichlet_fn(void *ctx, double t, double *x, error *err);
-
-typedef struct stepper {
-    newton_system *system;
-    int order;               /* 1: BDF1, 2: BDF2 */
-    int geometry_iterations; /* how often bodies are placed anew within a step */
-    double t, dt_previous;
-    int n_history;
-    double *x, *before, *history, *save[4]; /* [n_dof] */
-    double *residual;                       /* [n_dof] of all rows, pressure with zero mean: reactions */
-    newton_options options;
-    dirichlet_fn *dirichlet;
-    void *dirichlet_ctx;
-    move_fn *move;           /* NULL: nothing moves */
-    frame_fn *frame;         /* NULL: no moving frame */
-    struct newton_time last; /* of the last step, with its history */
-    newton_report report;
-    int newton_iterations, n_steps, n_halved;
-    arena memory;
-} stepper;
-
-int stepper_create(stepper *p, newton_system *s, int order, dirichlet_fn *f, void *ctx, error *err);
-/* From t to t + dt; a step that fails is halved, at most 6 times. */
-int stepper_advance(stepper *p, double dt, error *err);
-void stepper_destroy(stepper *p);
 
 double solve_seconds(void);
 

@@ -110,7 +110,7 @@ located locate_point(const mesh *m, const double *x)
 void locate_value(const space *s, const located *at, int field, const double *x, double *value, double *gradient)
 {
     const mesh *m = s->mesh;
-    const space_field *f = &s->field[field];
+    const field_spec *f = &s->field[field];
     const int32_t *node = m->cell + (int64_t)at->cell * m->type->n_node;
     int n = fe_n_basis(m->type, f->order), dim = m->dim;
     double b[FE_MAX_NODES], db[FE_MAX_NODES][3];

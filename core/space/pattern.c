@@ -44,9 +44,13 @@ static int groups_of_carriers(space *s, int64_t **start, int32_t **cell, error *
 {
     int64_t n = space_groups(s);
 
+    if (n > INT32_MAX)
+        return error_set(err, ERR_MEMORY,
+                         "%lld cells and pairs of cells and bodies; this build numbers at most 2^31", (long long)n);
     ARENA_NEW(&s->memory, *start, s->n_carrier + 2, err);
     ARENA_NEW(&s->memory, *cell,
-              (n - s->n_extra) * s->cell_carriers + (s->n_extra ? s->extra_first[s->n_extra] : 0), err);
+              (n - s->n_link - s->n_tie) * s->cell_carriers + 2 * s->n_link + 2 * s->mesh->type->n_node * s->n_tie,
+              err);
     for (int64_t e = 0; e < n; e++)
         for (int i = 0; i < space_group_size(s, e); i++)
             if (space_carrier(s, e, i) >= 0)
@@ -85,7 +89,7 @@ static int64_t neighbours(const space *s, const int64_t *start, const int32_t *c
 static void locate_pairs(space *s, const int64_t *start, const int32_t *cell, int64_t c, int32_t *offset)
 {
     for (int64_t k = start[c]; k < start[c + 1]; k++) {
-        int32_t *pair = s->pair + (space_pair(s, cell[k]) - s->pair);
+        int32_t *pair = s->pair + space_pair_offset(s, cell[k]);
         int n = space_group_size(s, cell[k]);
 
         for (int i = 0; i < n; i++)
@@ -96,22 +100,6 @@ static void locate_pairs(space *s, const int64_t *start, const int32_t *cell, in
                     pair[i * n + j] = other < 0 ? -1 : offset[other];
                 }
     }
-}
-
-/* Room for the offsets of all groups. */
-static int place_pairs(space *s, error *err)
-{
-    int64_t n = (space_groups(s) - s->n_extra) * s->cell_carriers * s->cell_carriers;
-
-    ARENA_NEW(&s->pattern_memory, s->extra_pair, s->n_extra + 1, err);
-    for (int64_t e = 0; e < s->n_extra; e++) {
-        int64_t size = s->extra_first[e + 1] - s->extra_first[e];
-
-        s->extra_pair[e] = n;
-        n += size * size;
-    }
-    ARENA_NEW(&s->pattern_memory, s->pair, n, err);
-    return 0;
 }
 
 int space_constrain(space *s, error *err)
@@ -126,7 +114,7 @@ int space_constrain(space *s, error *err)
     arena_free(&s->pattern_memory);
     TRY(number_free(s, err));
     ARENA_NEW(&s->pattern_memory, s->row, s->n_free + 1, err);
-    TRY(place_pairs(s, err));
+    ARENA_NEW(&s->pattern_memory, s->pair, space_pair_offset(s, space_groups(s)), err);
     keep = s->memory; /* what follows is needed only here */
     s->memory = scratch;
     status = groups_of_carriers(s, &start, &cell, err);

@@ -324,6 +324,33 @@ int registry_equation(registry *r, const char *name, const term_plugin **out, er
     return 0;
 }
 
+int registry_knows(registry *r, const char *name, const char **near)
+{
+    struct wanted *w = calloc(1, sizeof *w);
+    const char *seen[2 * TERM_MAX_FILES];
+    const char *best;
+    size_t n = 0;
+    int known = 0;
+
+    *near = NULL;
+    if (!w)
+        return 1; /* loading it will say that there is no memory */
+    w->name = name;
+    each_file(r, visit_wanted, w);
+    for (int i = 0; i < r->n_file; i++)
+        if (!r->file[i].refused && r->file[i].plugin.path) {
+            known |= strcmp(r->file[i].plugin.d.name, name) == 0;
+            seen[n++] = r->file[i].plugin.d.name;
+        }
+    known |= *w->path != 0;
+    for (int i = 0; i < w->n_seen; i++)
+        seen[n++] = w->seen[i];
+    best = known ? NULL : text_nearest(name, seen, n);
+    *near = best ? arena_strdup(&r->memory, best) : NULL;
+    free(w);
+    return known;
+}
+
 int registry_solver(registry *r, const char *name, const pf_solver **out, error *err)
 {
     term_file *f;

@@ -7,12 +7,13 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "base/value.h"
 
 #include <plugflow/mesh.h>
 #include <plugflow/plugin.h>
 #include <plugflow/solver.h>
 
-enum { TERM_MAX_SLOTS = 12, TERM_MAX_DIRS = 16, TERM_MAX_FILES = 64 };
+enum { TERM_MAX_SLOTS = 12, TERM_MAX_DIRS = 16, TERM_MAX_FILES = 64, TERM_MAX_FIELDS = 16 };
 
 /* A plugin after its checks.  All strides are those of this version's structs. */
 typedef struct term_plugin {
@@ -43,6 +44,8 @@ typedef struct registry {
 int registry_create(registry *r, const char *const *file, int n_file, error *err);
 int registry_load(registry *r, const char *path, term_file **out, error *err);
 int registry_equation(registry *r, const char *name, const term_plugin **out, error *err);
+/* 1 if there is a plugin file or a loaded plugin of this name, else 0 and the name that comes nearest (or NULL). */
+int registry_knows(registry *r, const char *name, const char **near);
 int registry_solver(registry *r, const char *name, const pf_solver **out, error *err);
 int registry_mesh_reader(registry *r, const char *name, const pf_mesh_reader **out, error *err);
 /* Loads whatever lies in the folders; failures stay in file[].refused. */
@@ -73,6 +76,37 @@ size_t term_jacobian_room(const pf_term *t, int dim, uint32_t ld);
  * first that the term has).  jac as in pf_jacobian_fn; room from term_jacobian_room, 64-byte aligned. */
 int term_jacobian(const pf_term *t, enum term_derivative how, const pf_batch *b, const double *const *in,
                   double *const *jac, void *room);
+
+/* A term that a case switched on. */
+typedef struct term_use {
+    const term_plugin *plugin;
+    const pf_term *term;
+    int where; /* enum pf_where: the term's own, or PF_FLUID where the case narrows it */
+    void *params;
+    enum term_derivative how;
+    const value *data[TERM_MAX_SLOTS]; /* for PF_DATA slots */
+} term_use;
+
+/* --- fields: the unknowns that plugins declare (fields.c) --- */
+
+typedef struct field_spec {
+    const char *name, *unit, *doc, *reaction, *reaction_unit;
+    const char *declared_by; /* plugin that declared it first */
+    const char *constrains;  /* restricted fields: the field they hold, or NULL */
+    int shape;
+    int n_comp;
+    int order;   /* 0 (off the mesh), 1 or 2      */
+    int support; /* enum pf_support               */
+} field_spec;
+
+typedef struct field_list {
+    int n;
+    field_spec f[TERM_MAX_FIELDS];
+} field_list;
+
+/* Adds a field, or checks that it agrees with the one of this name. */
+int fields_add(field_list *l, int dim, const pf_field *f, const char *plugin, error *err);
+int fields_find(const field_list *l, const char *name); /* index or -1 */
 
 /* What a crash handler needs to know: what this thread is computing. */
 typedef struct term_breadcrumb {

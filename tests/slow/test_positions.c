@@ -32,7 +32,7 @@ static int is_velocity(const problem *p, int64_t free_unknown)
 {
     int32_t d = p->space.dof_of[free_unknown];
 
-    return strcmp(p->space.field[p->space.dof_field[d]].name, "u") == 0 && !p->space.idle[d];
+    return strcmp(p->space.field[p->space.dof_field[d]].name, "u") == 0 && !p->bodies.now->idle[d];
 }
 
 /* Symmetric part of the velocity block, in place in a cholmod matrix (upper triangle by rows = lower by columns).
@@ -99,19 +99,27 @@ static outcome at_position(const char *file, const char *const *sets, int n_set,
     cholmod_sparse *a;
     int64_t u;
 
-    if (problem_initial(p, &err) || problem_cut(p, p->x, &err))
+    if (problem_initial(p, &err))
         fail_msg("%s", err.text);
-    if (newton_solve(&p->system, &(newton_time){0}, &p->newton, p->x, &report, &err) || !report.converged)
+    if (newton_solve(&p->system, &(newton_time){.bodies = problem_points(p)}, &p->newton, p->state.x, &report,
+                     &err) ||
+        !report.converged)
         fail_msg("%s %s: %s", sets[n_set - 2], sets[n_set - 1], report.why);
     o.residual = p->system.linear.stats.worst_residual;
     if (assembly_run(&p->system.assembly,
-                     &(assembly_state){.x = p->x, .dot = p->system.work, .old = p->x, .only = PF_FLUID_FORCE},
+                     &(assembly_state){.x = p->state.x,
+                                       .dot = p->system.work,
+                                       .old = p->state.x,
+                                       .bodies = problem_points(p),
+                                       .only = PF_FLUID_FORCE},
                      p->system.residual, p->system.linear.value, 0, &err))
         fail_msg("%s", err.text);
-    u = problem_particle_dof(p, 0, PF_VECTOR);
+    u = bodies_dof(&p->bodies, 0, 0);
     o.force = p->system.residual[u] / unit;
     memset(p->system.work, 0, (size_t)p->space.n_dof * sizeof(double));
-    if (assembly_run(&p->system.assembly, &(assembly_state){.x = p->x, .dot = p->system.work, .old = p->x},
+    if (assembly_run(&p->system.assembly,
+                     &(assembly_state){
+                         .x = p->state.x, .dot = p->system.work, .old = p->state.x, .bodies = problem_points(p)},
                      p->system.residual, p->system.linear.value, 0, &err))
         fail_msg("%s", err.text);
     a = velocity_block(p, c);

@@ -140,7 +140,7 @@ static void assert_block(const char *block, const char *shape, const char *got_n
 
 static int components(const opened *k, int row)
 {
-    return row == PRINTED_P || row < k->p.dim;
+    return row == PRINTED_P || row < k->p.mesh.dim;
 }
 
 /* --- tests --- */

@@ -73,7 +73,7 @@ static opened *open_shape(const char *shape, const char *how)
     if (k->p.space.n_free != k->p.space.n_dof)
         fail_msg("%s: %lld of %lld unknowns are free", shape, (long long)k->p.space.n_free,
                  (long long)k->p.space.n_dof);
-    assert_int_equal(k->p.n_particle, BODIES);
+    assert_int_equal(k->p.bodies.n, BODIES);
     return k;
 }
 
@@ -81,7 +81,7 @@ static opened *open_shape(const char *shape, const char *how)
 
 static int64_t slots(const opened *k, int component)
 {
-    return component < BODIES_UP ? k->p.mesh.n_node : k->p.n_particle;
+    return component < BODIES_UP ? k->p.mesh.n_node : k->p.bodies.n;
 }
 
 static int64_t state_size(const opened *k)
@@ -137,10 +137,11 @@ static void kernel_blocks(opened *k, const bodies_state *state, bodies_blocks *b
     const space *s = &k->p.space;
     newton_system *sys = &k->p.system;
     double *x = malloc((size_t)(3 * s->n_dof) * sizeof *x), *old = x + s->n_dof, *dot = old + s->n_dof;
-    assembly_state at = {.dt = fluid.dt, .shift = 1 / fluid.dt, .x = x, .dot = dot, .old = old};
+    assembly_state at = {
+        .dt = fluid.dt, .shift = 1 / fluid.dt, .x = x, .dot = dot, .old = old, .bodies = problem_points(&k->p)};
 
     assert_non_null(x);
-    assert_int_equal(bodies_blocks_create(b, k->p.mesh.n_node, k->p.n_particle), 0);
+    assert_int_equal(bodies_blocks_create(b, k->p.mesh.n_node, k->p.bodies.n), 0);
     for (int64_t i = 0; i < s->n_dof; i++) {
         x[i] = state->now[component_of(s, i)][slot_of(s, i)];
         old[i] = state->old[component_of(s, i)][slot_of(s, i)];
@@ -165,34 +166,43 @@ static void kernel_blocks(opened *k, const bodies_state *state, bodies_blocks *b
 static void printed_blocks_of(const opened *k, const bodies_state *s, bodies_blocks *b)
 {
     const problem *p = &k->p;
-    const double(*cut_x)[3] = (const double(*)[3])p->cut.x;
+    const double(*cut_x)[3] = (const double(*)[3])p->bodies.cut.x;
     bodies_body body[BODIES];
     bodies_data data = {.fluid = &fluid, .alpha = ALPHA, .body = body};
     printed_cell c;
 
     for (int i = 0; i < BODIES; i++) {
-        body[i].rho = p->particle[i].density;
-        memcpy(body[i].x, p->particle[i].at.x, sizeof body[i].x);
+        body[i].rho = p->bodies.spec[i].density;
+        memcpy(body[i].x, p->bodies.now->body[i].at.x, sizeof body[i].x);
     }
-    printed_cell_make(p->dim, p->mesh.type->simplex, &c);
-    assert_int_equal(bodies_blocks_create(b, p->mesh.n_node, p->n_particle), 0);
+    printed_cell_make(p->mesh.dim, p->mesh.type->simplex, &c);
+    assert_int_equal(bodies_blocks_create(b, p->mesh.n_node, p->bodies.n), 0);
     for (int64_t e = 0; e < p->mesh.n_cell; e++) {
         bodies_part part = {BODIES_OMEGA, e, -1, c.n_point, (const double(*)[3])c.s, c.weight};
 
         bodies_add(&p->mesh, &data, s, &part, b);
         part.domain = BODIES_OMEGA_F;
-        if (!p->fluid_off[e])
+        if (!p->bodies.now->cover[e])
             bodies_add(&p->mesh, &data, s, &part, b);
     }
-    for (int64_t i = 0; i < p->n_cut; i++) {
-        bodies_part part = {BODIES_OMEGA_F, p->cut_cell[i], -1, p->cut.n, cut_x, p->cut_weight + i * p->cut.n};
+    for (int64_t i = 0; i < p->bodies.now->n_cut; i++) {
+        bodies_part part = {BODIES_OMEGA_F,
+                            p->bodies.now->cut_cell[i],
+                            -1,
+                            p->bodies.cut.n,
+                            cut_x,
+                            p->bodies.now->cut_weight + i * p->bodies.cut.n};
 
         bodies_add(&p->mesh, &data, s, &part, b);
     }
-    for (int64_t i = 0; i < p->n_covered; i++) {
-        int32_t a = p->covered[i];
-        bodies_part part = {BODIES_OMEGA_P, p->space.attached_cell[a], p->space.attached_particle[a], p->cut.n,
-                            cut_x,          p->weight + i * p->cut.n};
+    for (int64_t i = 0; i < p->bodies.now->n_covered; i++) {
+        int32_t a = p->bodies.now->covered[i];
+        bodies_part part = {BODIES_OMEGA_P,
+                            p->space.attached_cell[a],
+                            p->space.attached_particle[a],
+                            p->bodies.cut.n,
+                            cut_x,
+                            p->bodies.now->covered_weight + i * p->bodies.cut.n};
 
         bodies_add(&p->mesh, &data, s, &part, b);
     }
@@ -294,7 +304,7 @@ static void jacobian_matches(void **state)
     for (int i = 0; i < STATES; i++)
         for (int col = 0; col < BODIES_COMPONENTS; col++) {
             const bodies_blocks *kernel = &at->kernel[i], *printed = &at->printed[i];
-            int zero = !bodies_component(at->k->p.dim, col) || !bodies_entry(c->row, col);
+            int zero = !bodies_component(at->k->p.mesh.dim, col) || !bodies_entry(c->row, col);
             int64_t n = printed->n[c->row] * printed->n[col];
 
             assert_int_equal(distance(printed->j[c->row][col], NULL, n) == 0, zero);
@@ -337,7 +347,7 @@ static void printed_derivative(void **state)
 {
     const claim *c = *state;
     opened *k = open_shape(c->shape, "auto");
-    int64_t room = k->p.mesh.n_node + k->p.n_particle, size = state_size(k);
+    int64_t room = k->p.mesh.n_node + k->p.bodies.n, size = state_size(k);
     bodies_state s, t;
     double *x = random_state(k, 21, &s), *d = random_state(k, 22, &t);
     double *jd = calloc((size_t)(2 * room), sizeof *jd), *dr = jd + room;
@@ -374,39 +384,40 @@ static void weights_add_up(void **state)
     const claim *c = *state;
     opened *k = open_shape(c->shape, "auto");
     const problem *p = &k->p;
-    int64_t n = p->cut.n, n_cell = p->mesh.n_cell, whole = 0, free_cells = 0, shared = 0;
+    int64_t n = p->bodies.cut.n, n_cell = p->mesh.n_cell, whole = 0, free_cells = 0, shared = 0;
     double *sum = calloc((size_t)(n_cell * n), sizeof *sum), scale = 0;
     int *parts = calloc((size_t)(2 * n_cell), sizeof *parts), *bodies = parts + n_cell;
 
     assert_non_null(sum);
     assert_non_null(parts);
-    for (int64_t i = 0; i < p->n_cut; i++) {
-        parts[p->cut_cell[i]]++;
+    for (int64_t i = 0; i < p->bodies.now->n_cut; i++) {
+        parts[p->bodies.now->cut_cell[i]]++;
         for (int64_t q = 0; q < n; q++)
-            sum[p->cut_cell[i] * n + q] += p->cut_weight[i * n + q];
+            sum[p->bodies.now->cut_cell[i] * n + q] += p->bodies.now->cut_weight[i * n + q];
     }
-    for (int64_t i = 0; i < p->n_covered; i++) {
-        int32_t e = p->space.attached_cell[p->covered[i]];
+    for (int64_t i = 0; i < p->bodies.now->n_covered; i++) {
+        int32_t e = p->space.attached_cell[p->bodies.now->covered[i]];
 
         bodies[e]++;
         for (int64_t q = 0; q < n; q++)
-            sum[e * n + q] += p->weight[i * n + q];
+            sum[e * n + q] += p->bodies.now->covered_weight[i * n + q];
     }
     for (int64_t q = 0; q < n; q++)
-        scale = fmax(scale, fabs(p->cut.whole[q]));
+        scale = fmax(scale, fabs(p->bodies.cut.whole[q]));
     for (int64_t e = 0; e < n_cell; e++) {
         assert_int_equal(parts[e],
-                         p->fluid_off[e] == 1); /* listed once, and only if near a body that leaves some of it */
-        assert_true(p->fluid_off[e] != 0 || bodies[e] == 0);
+                         p->bodies.now->cover[e] ==
+                             COVER_PART); /* listed once, and only if near a body that leaves some of it */
+        assert_true(p->bodies.now->cover[e] != 0 || bodies[e] == 0);
         free_cells += bodies[e] == 0;
         whole += bodies[e] && !parts[e];
         shared += bodies[e] > 1;
         for (int64_t q = 0; parts[e] && q < n; q++)
-            if (!(fabs(sum[e * n + q] - p->cut.whole[q]) <= EXACT * scale))
+            if (!(fabs(sum[e * n + q] - p->bodies.cut.whole[q]) <= EXACT * scale))
                 fail_msg("%s, cell %lld, point %lld: weights add up to %.17g, not %.17g", c->shape, (long long)e,
-                         (long long)q, sum[e * n + q], p->cut.whole[q]);
+                         (long long)q, sum[e * n + q], p->bodies.cut.whole[q]);
     }
-    assert_true(free_cells > 0 && shared > 0 && p->n_cut > 0);
+    assert_true(free_cells > 0 && shared > 0 && p->bodies.now->n_cut > 0);
     assert_true(whole > 0 || strcmp(c->shape, "hexes") == 0); /* too coarse for that */
     free(sum);
     free(parts);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * History near moving bodies (core/problem/moving_frame.c): what holds for any path, what the paths of the design
+ * History near moving bodies (core/body/paths.c): what holds for any path, what the paths of the design
  * do, and the derivative of du/dt along them. */
 #include "support/opened.h"
 
@@ -37,6 +37,7 @@ static const double way[3] = {0.06, 0.021, 0.013}, turn[3] = {0.04, -0.03, 0.05}
 typedef struct moved {
     opened *k;
     double *u[2], *history;
+    pose then[2]; /* a step ago */
     const moving_frame *frame;
 } moved;
 
@@ -46,6 +47,7 @@ static moved move_body(int dim, int turns)
     const char *set[] = {dim == 3 ? "dim=3" : "dim=2"};
     moved m = {.k = open_text(case_text, set, 1)};
     problem *p = &m.k->p;
+    enum placement_change ignored;
     error err = {0};
 
     m.history = calloc((size_t)(3 * p->space.n_dof), sizeof(double));
@@ -53,17 +55,16 @@ static moved move_body(int dim, int turns)
     for (int l = 0; l < 2; l++)
         m.u[l] = m.history + (l + 1) * p->space.n_dof;
     assert_int_equal(problem_initial(p, &err), 0);
-    for (int step = 0; step < 3; step++) {
+    for (int step = 0; step < 3; step++) { /* two steps ago, a step ago, now */
+        if (step == 2)
+            memcpy(m.then, p->state.pose, 2 * sizeof *m.then);
         for (int b = 0; step && b < dim; b++)
-            p->particle[0].at.x[b] += way[b];
+            p->state.pose[0].x[b] += way[b];
         if (step && turns)
-            pose_turn(&p->particle[0].at, p->dim, turn);
-        if (step < 2)
-            problem_move(p, MOVE_REMEMBER, 0, 0, NULL, NULL, &err);
-        if (step == 0)
-            problem_move(p, MOVE_KEEP, 0, 0, NULL, NULL, &err);
+            pose_turn(&p->state.pose[0], dim, turn);
     }
-    assert_int_equal(problem_cut(p, p->x, &err), 0);
+    assert_int_equal(bodies_place(&p->bodies, p->state.pose, &ignored, &err), 0);
+    bodies_clear(&p->bodies, p->bodies.now, p->state.x);
     return m;
 }
 
@@ -96,23 +97,24 @@ static void set_levels(moved *m, double (*f)(int, const double *, double *), dou
         for (int64_t n = 0; n < p->mesh.n_node; n++) {
             double x[3] = {0}, ignored[3];
 
-            for (int b = 0; b < p->dim; b++)
-                x[b] = p->mesh.x[n * p->dim + b] + carried * (l + 1) * way[b];
-            for (int a = 0; a < p->dim; a++)
+            for (int b = 0; b < p->mesh.dim; b++)
+                x[b] = p->mesh.x[n * p->mesh.dim + b] + carried * (l + 1) * way[b];
+            for (int a = 0; a < p->mesh.dim; a++)
                 m->u[l][p->space.first[u][n] + a] = f(a, x, ignored);
         }
     for (int64_t d = 0; d < p->space.n_dof; d++)
         m->history[d] = then[0] * m->u[0][d] + then[1] * m->u[1][d];
-    m->frame = problem_frame(p, 2, then, (const double *[]){m->u[0], m->u[1]}, m->history);
+    m->frame = bodies_paths(&p->bodies, p->bodies.now, 2, then, (const double *[]){m->u[0], m->u[1]},
+                            (const pose *[]){m->then, p->state.pose_before}, m->history);
     assert_non_null(m->frame);
 }
 
 static void centre(const problem *p, int64_t cell, int i, double *x)
 {
     memset(x, 0, 3 * sizeof *x);
-    for (int b = 0; b < p->dim; b++) /* a node, a little towards the opposite one */
-        x[b] = 0.9 * p->mesh.x[(int64_t)p->mesh.cell[cell * p->mesh.type->n_node + i] * p->dim + b] +
-               0.1 * p->mesh.x[(int64_t)p->mesh.cell[cell * p->mesh.type->n_node + (i ? 0 : 2)] * p->dim + b];
+    for (int b = 0; b < p->mesh.dim; b++) /* a node, a little towards the opposite one */
+        x[b] = 0.9 * p->mesh.x[(int64_t)p->mesh.cell[cell * p->mesh.type->n_node + i] * p->mesh.dim + b] +
+               0.1 * p->mesh.x[(int64_t)p->mesh.cell[cell * p->mesh.type->n_node + (i ? 0 : 2)] * p->mesh.dim + b];
 }
 
 /* c_0 u + history - w . grad u = 0: a steady velocity that is linear in x has no du/dt, whatever the path. */
@@ -130,7 +132,7 @@ static void a_linear_velocity_has_no_rate(void **state)
                 double x[3], w[3], h[3], g[3];
 
                 centre(p, cell, i, x);
-                if (p->fluid_off[cell] > 1 || !m.frame->at(m.frame->ctx, cell, x, w, h))
+                if (p->bodies.now->cover[cell] > COVER_PART || !m.frame->at(m.frame->ctx, cell, x, w, h))
                     continue;
                 moves++;
                 for (int a = 0; a < dim; a++) {
@@ -164,14 +166,14 @@ static void what_a_body_carries_is_steady_along_its_path(void **state)
         set_levels(&m, bent, 1);
         for (int side = 0; side < 2 * dim; side++)
             for (int body = 0; body < 2; body++) {
-                const particle *q = &p->particle[body];
+                const solid *q = &p->bodies.now->body[body];
                 double x[3] = {q->at.x[0], q->at.x[1], q->at.x[2]}, w[3] = {0}, h[3], ignored[3];
                 int64_t cell;
                 int moves;
 
-                x[side / 2] += (side % 2 ? 1 : -1) * (q->shape.half[side / 2] * (1 + 1e-9));
-                cell_grid_ball(&p->grid, x, 0, p->near_cell);
-                cell = p->near_cell[0];
+                x[side / 2] += (side % 2 ? 1 : -1) * (q->shape->half[side / 2] * (1 + 1e-9));
+                cell_grid_ball(&p->bodies.grid, x, 0, p->bodies.near_cell);
+                cell = p->bodies.near_cell[0];
                 moves = m.frame->at(m.frame->ctx, cell, x, w, h);
                 assert_true(moves == (body == 0) || (body == 1 && fabs(w[0]) < 1e-6));
                 for (int a = 0; body == 0 && a < dim; a++) {
@@ -195,7 +197,8 @@ static void the_jacobian_knows_the_paths(void **state)
         double *x = calloc((size_t)(6 * n), sizeof *x), *v = x + n, *y = x + 2 * n, *dot = x + 3 * n,
                *r = x + 4 * n;
         double *product = x + 5 * n, worst = 0, size = 0;
-        assembly_state at = {.t = 0.3, .dt = 0.1, .shift = now, .x = y, .dot = dot, .old = y};
+        assembly_state at = {
+            .t = 0.3, .dt = 0.1, .shift = now, .x = y, .dot = dot, .old = y, .bodies = problem_points(p)};
         error err = {0};
 
         set_levels(&m, bent, 1);
@@ -203,7 +206,7 @@ static void the_jacobian_knows_the_paths(void **state)
         fill_random(x, n, 5);
         fill_random(v, n, 7);
         for (int64_t d = 0; d < n; d++)
-            v[d] *= s->fixed[d] || s->idle[d] ? 0 : 1;
+            v[d] *= s->fixed[d] || p->bodies.now->idle[d] ? 0 : 1;
         for (int side = 1; side >= -1; side -= 1) { /* r(x + v) - r(x - v), then the matrix at x */
             for (int64_t d = 0; d < n; d++) {
                 y[d] = x[d] + side * v[d];

@@ -28,6 +28,7 @@ static void fill(const space *s, double *value, double shift)
 
 typedef struct fixture {
     mesh m;
+    field_list fields;
     space s;
     registry r;
     linear l;
@@ -42,9 +43,10 @@ static int setup(void **state)
     error err;
 
     memset(&f, 0, sizeof f);
-    if (mesh_create_box(&b, &f.m, &err) || mesh_measure(&f.m, &err) || space_add_field(&f.s, 2, &u, "test", &err) ||
-        space_number(&f.s, &f.m, &err) || space_constrain(&f.s, &err) || registry_create(&f.r, NULL, 0, &err) ||
-        registry_solver(&f.r, "solver_umfpack", &solver, &err) || linear_create(&f.l, solver, &f.s, 1, &err))
+    if (mesh_create_box(&b, &f.m, &err) || mesh_measure(&f.m, &err) || fields_add(&f.fields, 2, &u, "test", &err) ||
+        space_number(&f.s, &f.fields, &f.m, 0, &err) || space_constrain(&f.s, &err) ||
+        registry_create(&f.r, NULL, 0, &err) || registry_solver(&f.r, "solver_umfpack", &solver, &err) ||
+        linear_create(&f.l, solver, &f.s, 1, &err))
         return -1;
     *state = &f;
     return 0;

@@ -8,9 +8,7 @@
  * d_k(x): how far the point of the body that is at x now has come since then; s(x) = 1 at its surface, 0 at a
  * distance of REACH cells and at other bodies; c_k: coefficients of the time scheme, c_0 + sum_k c_k = 0.  Any path
  * through x is right; this one does not leave the fluid, and what a body carries with it is steady along it. */
-#include "problem/problem.h"
-
-#include "space/locate.h"
+#include "body/body.h"
 
 #include <math.h>
 #include <string.h>
@@ -79,17 +77,17 @@ static void travelled(const moving_body *b, int l, const double *x, double *d)
 }
 
 /* Cell at x, and where in it; -1: none. */
-static located locate(problem *p, const double *x)
+static located locate(const bodies *b, const double *x)
 {
     located l = {.cell = -1};
     double at[3] = {x[0], x[1], x[2]};
     int64_t n;
 
-    mesh_wrap(&p->mesh, at);
-    n = cell_grid_ball(&p->grid, at, 1e-9 * p->h_mean, p->near_cell);
+    mesh_wrap(b->space->mesh, at);
+    n = cell_grid_ball((cell_grid *)&b->grid, at, 1e-9 * b->h_mean, b->near_cell);
     for (int64_t i = 0; i < n && l.cell < 0; i++)
-        if (locate_in_cell(&p->mesh, p->near_cell[i], at, l.xi) > 0)
-            l.cell = p->near_cell[i];
+        if (locate_in_cell(b->space->mesh, b->near_cell[i], at, l.xi) > 0)
+            l.cell = b->near_cell[i];
     return l;
 }
 
@@ -141,7 +139,7 @@ static int find_path(const body_paths *t, const double *x, double reach, double 
 
 /* Cells where a path through x was.  One that leaves the mesh has to be shortened: returns by which factor, or
  * 0. */
-static double locate_path(problem *p, const double *x, double way[2][3], located *foot)
+static double locate_path(const bodies *p, const double *x, double way[2][3], located *foot)
 {
     for (double part = 1; part > 0.05; part *= 0.5) {
         int outside = 0;
@@ -160,21 +158,21 @@ static double locate_path(problem *p, const double *x, double way[2][3], located
 
 /* Whether a body covered all of the cell in which `at` was found: all vertices (fluid there has no values of its
  * own). */
-static int was_covered(const problem *p, const moving_body *b, int l, const located *foot, const double *at)
+static int was_covered(const mesh *m, const moving_body *b, int l, const located *foot, const double *at)
 {
-    const fe_cell *type = p->mesh.type;
-    const int32_t *node = p->mesh.cell + (int64_t)foot->cell * type->n_node;
+    const fe_cell *type = m->type;
+    const int32_t *node = m->cell + (int64_t)foot->cell * type->n_node;
     double basis[FE_MAX_NODES], dn[FE_MAX_NODES][3], found[3], j[3][3];
 
     fe_basis(type, 2, foot->xi, basis, dn);
-    mesh_map(&p->mesh, foot->cell, basis, (const double(*)[3])dn, found, j);
+    mesh_map(m, foot->cell, basis, (const double(*)[3])dn, found, j);
     for (int i = 0; i < type->n_vertex; i++) {
         double own[3] = {0};
 
-        for (int k = 0; k < p->dim; k++)
-            for (int c = 0; c < p->dim; c++) /* found is at, or its image by a period */
-                own[k] += b->then[l][c][k] * (p->mesh.x[(int64_t)node[type->vertex[i]] * p->dim + c] - found[c] +
-                                              at[c] - b->here.at.x[c] + b->way[l][c]);
+        for (int k = 0; k < m->dim; k++)
+            for (int c = 0; c < m->dim; c++) /* found is at, or its image by a period */
+                own[k] += b->then[l][c][k] * (m->x[(int64_t)node[type->vertex[i]] * m->dim + c] - found[c] + at[c] -
+                                              b->here.at.x[c] + b->way[l][c]);
         if (shape_level(b->here.shape, own) > 0)
             return 0;
     }
@@ -184,7 +182,7 @@ static int was_covered(const problem *p, const moving_body *b, int l, const loca
 /* A cut cell has points below the surface, too.  What they need is the fluid beside the surface, continued to first
  * order: moves the foot there, off: from there to the foot.  But the history of a body that all but rests stays in
  * its cell, if there was fluid: it must cancel c_0 u, which is of that cell. */
-static void continue_fluid(problem *p, const moving_body *b, const double *x, double h, double part,
+static void continue_fluid(const bodies *p, const moving_body *b, const double *x, double h, double part,
                            double way[2][3], located *foot, double off[2][3])
 {
     double from[3] = {x[0], x[1], x[2]};
@@ -198,14 +196,14 @@ static void continue_fluid(problem *p, const moving_body *b, const double *x, do
             at[k] = x[k] - part * way[l][k];
             far += way[l][k] * way[l][k];
         }
-        if (sqrt(far) < RESTS * h && !was_covered(p, b, l, &foot[l], at))
+        if (sqrt(far) < RESTS * h && !was_covered(p->space->mesh, b, l, &foot[l], at))
             continue;
         if (found < 0)
             found = find_surface(b, h, from);
         if (!found)
             return;
         travelled(b, l, from, d);
-        for (int k = 0; k < p->dim; k++) {
+        for (int k = 0; k < p->space->mesh->dim; k++) {
             off[l][k] = at[k];
             at[k] = from[k] - part * d[k];
             off[l][k] -= at[k];
@@ -219,31 +217,31 @@ static void continue_fluid(problem *p, const moving_body *b, const double *x, do
 }
 
 /* sum_k c_k u^k at the feet, continued by `off` to first order. */
-static void history_of(const problem *p, int f, const located *foot, double off[2][3], double *history)
+static void history_of(const bodies *p, int f, const located *foot, double off[2][3], double *history)
 {
     const body_paths *t = &p->paths;
-    int n = p->space.field[f].n_comp;
+    int n = p->space->field[f].n_comp, dim = p->space->mesh->dim;
 
     memset(history, 0, (size_t)n * sizeof *history);
     for (int l = 0; l < t->levels; l++) {
         int further = off[l][0] != 0 || off[l][1] != 0 || off[l][2] != 0;
         double v[VALUE_MAX], g[3 * VALUE_MAX] = {0};
 
-        locate_value(&p->space, &foot[l], f, t->u[l], v, further ? g : NULL);
+        locate_value(p->space, &foot[l], f, t->u[l], v, further ? g : NULL);
         for (int a = 0; a < n; a++) {
             history[a] += t->c[l] * v[a];
-            for (int k = 0; further && k < p->dim; k++)
-                history[a] += t->c[l] * g[a * p->dim + k] * off[l][k];
+            for (int k = 0; further && k < dim; k++)
+                history[a] += t->c[l] * g[a * dim + k] * off[l][k];
         }
     }
 }
 
 /* See moving_frame. */
-static int path_at(void *problem_, int64_t cell, const double *x, double *w, double *history)
+static int path_at(void *bodies_, int64_t cell, const double *x, double *w, double *history)
 {
-    problem *p = problem_;
+    const bodies *p = bodies_;
     const body_paths *t = &p->paths;
-    double way[2][3], off[2][3] = {{0}}, h = p->mesh.h[cell], part;
+    double way[2][3], off[2][3] = {{0}}, h = p->space->mesh->h[cell], part;
     located foot[2];
 
     if (!t->cell[cell] || !find_path(t, x, REACH * h, way))
@@ -256,30 +254,31 @@ static int path_at(void *problem_, int64_t cell, const double *x, double *w, dou
             continue_fluid(p, b, x, h, part, way, foot, off);
             break;
         }
-    for (int k = 0; k < p->dim; k++) {
+    for (int k = 0; k < p->space->mesh->dim; k++) {
         w[k] = 0;
         for (int l = 0; l < t->levels; l++)
             w[k] -= t->c[l] * part * way[l][k];
     }
-    for (int f = 0; f < p->space.n_field; f++)
+    for (int f = 0; f < p->space->n_field; f++)
         if (t->frame.fields >> f & 1) {
             history_of(p, f, foot, off, history);
-            history += p->space.field[f].n_comp;
+            history += p->space->field[f].n_comp;
         }
     return 1;
 }
 
 /* Fields that the paths matter to: those of the fluid only, with du/dt in some term. */
-static uint32_t find_fields(const problem *p)
+static uint32_t find_fields(const bodies *b)
 {
+    const description *d = b->description;
     uint32_t found = 0;
 
-    for (int i = 0; i < p->n_use; i++)
-        for (uint32_t k = 0; k < p->use[i].term->n_in; k++) {
-            const pf_slot *slot = &p->use[i].term->in[k];
-            int f = slot->eval == PF_DOT ? space_find_field(&p->space, slot->field) : -1;
+    for (int i = 0; i < d->n_use; i++)
+        for (uint32_t k = 0; k < d->use[i].term->n_in; k++) {
+            const pf_slot *slot = &d->use[i].term->in[k];
+            int f = slot->eval == PF_DOT ? space_find_field(b->space, slot->field) : -1;
 
-            if (f >= 0 && p->space.field[f].order > 0 && p->fluid_only[f])
+            if (f >= 0 && b->space->field[f].order > 0 && b->fluid_only[f])
                 found |= 1u << f;
         }
     return found;
@@ -292,47 +291,58 @@ static int is_round(const shape *s)
 }
 
 /* The images of the bodies, now and then. */
-static void place(problem *p, int levels)
+static void place(bodies *p, const placement *now, int levels, const pose *const *then)
 {
     body_paths *t = &p->paths;
 
     t->n = 0;
-    for (int k = 0; k < p->n_particle; k++)
+    for (int k = 0; k < p->n; k++)
         for (int j = 0; j < p->n_image; j++) {
             moving_body *b = &t->body[t->n++];
 
-            *b = (moving_body){.here = solid_at(&p->particle[k].shape, &p->particle[k].at),
-                               .moves = p->particle[k].motion != PARTICLE_FIXED};
+            *b = (moving_body){.here = now->body[k], .moves = p->spec[k].motion != BODY_FIXED};
             for (int l = 0; l < levels; l++) {
-                const particle *then = &p->remembered[l ? 2 : 0][k];
-                solid turned = is_round(&then->shape) ? b->here : solid_at(&then->shape, &then->at);
+                solid turned = is_round(b->here.shape) ? b->here : solid_at(b->here.shape, &then[l][k]);
 
                 memcpy(b->then[l], turned.axes, sizeof turned.axes);
-                for (int i = 0; i < p->dim; i++)
-                    b->way[l][i] = b->here.at.x[i] - then->at.x[i];
-                mesh_nearest(&p->mesh, b->way[l]); /* it may have come in again on the other side */
+                for (int i = 0; i < p->space->mesh->dim; i++)
+                    b->way[l][i] = b->here.at.x[i] - then[l][k].x[i];
+                mesh_nearest(p->space->mesh, b->way[l]); /* it may have come in again on the other side */
             }
             for (int i = 0; i < 3; i++)
                 b->here.at.x[i] += p->image[j][i];
         }
 }
 
-const moving_frame *problem_frame(void *problem_, int levels, const double *c, const double *const *u,
-                                  const double *history)
+int paths_create(bodies *b, error *err)
 {
-    problem *p = problem_;
-    body_paths *t = &p->paths;
+    ARENA_NEW(&b->memory, b->paths.body, b->n * b->n_image, err);
+    ARENA_NEW(&b->memory, b->paths.cell, b->space->mesh->n_cell, err);
+    b->paths.frame.fields = find_fields(b);
+    b->paths.frame.cell = b->paths.cell;
+    b->paths.frame.ctx = b;
+    b->paths.frame.at = path_at;
+    return 0;
+}
+
+const moving_frame *bodies_paths(bodies *b, const placement *now, int levels, const double *c,
+                                 const double *const *u, const pose *const *then, const double *history)
+{
+    body_paths *t = &b->paths;
     int any = 0;
 
-    place(p, levels);
-    memset(t->cell, 0, (size_t)p->mesh.n_cell);
+    if (!t->frame.fields)
+        return NULL;
+    place(b, now, levels, then);
+    memset(t->cell, 0, (size_t)b->space->mesh->n_cell);
     for (int i = 0; i < t->n; i++) {
         const solid *q = &t->body[i].here;
-        int64_t n =
-            t->body[i].moves ? cell_grid_ball(&p->grid, q->at.x, q->shape->radius + REACH * p->h_max, p->near_cell) : 0;
+        int64_t n = t->body[i].moves
+                        ? cell_grid_ball(&b->grid, q->at.x, q->shape->radius + REACH * b->h_mean, b->near_cell)
+                        : 0;
 
         for (int64_t k = 0; k < n; k++)
-            t->cell[p->near_cell[k]] = 1;
+            t->cell[b->near_cell[k]] = 1;
         any |= n > 0;
     }
     t->levels = levels;
@@ -340,11 +350,7 @@ const moving_frame *problem_frame(void *problem_, int levels, const double *c, c
         t->c[l] = c[l];
         t->u[l] = u[l];
     }
-    t->frame.fields = find_fields(p);
     t->frame.stamp++;
-    t->frame.cell = t->cell;
     t->frame.u = history;
-    t->frame.ctx = p;
-    t->frame.at = path_at;
-    return any && t->frame.fields ? &t->frame : NULL;
+    return any ? &t->frame : NULL;
 }

@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What stays while bodies move: found once. */
+#include "body/body.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Shifts of the images of a body: by -1, 0 or 1 of each period; zero first. */
+static void list_images(bodies *b)
+{
+    const mesh *m = b->space->mesh;
+
+    b->n_image = 1;
+    for (int k = 0; k < m->n_period && k < 3; k++) {
+        int n = b->n_image;
+
+        for (int sign = -1; sign <= 1; sign += 2)
+            for (int i = 0; i < n; i++, b->n_image++)
+                for (int c = 0; c < 3; c++)
+                    b->image[b->n_image][c] = b->image[i][c] + sign * m->period_vector[k][c];
+    }
+}
+
+/* Which fields have equations in the fluid only: there is none for them where there is no fluid. */
+static void find_fields(bodies *b)
+{
+    const description *d = b->description;
+    int in_fluid[SPACE_MAX_FIELDS] = {0}, elsewhere[SPACE_MAX_FIELDS] = {0};
+
+    for (int i = 0; i < d->n_use; i++)
+        for (uint32_t o = 0; o < d->use[i].term->n_out; o++) {
+            int f = space_find_field(b->space, d->use[i].term->out[o].field), where = d->use[i].where;
+
+            if (f >= 0 && b->space->field[f].order > 0) {
+                in_fluid[f] |= where == PF_FLUID;
+                elsewhere[f] |= where == PF_CELL || where == PF_SOLID;
+            }
+        }
+    b->field_velocity = b->field_spin = -1;
+    for (int f = 0; f < b->space->n_field; f++) {
+        const field_spec *g = &b->space->field[f];
+
+        b->fluid_only[f] = in_fluid[f] && !elsewhere[f];
+        b->any_fluid_only |= b->fluid_only[f];
+        if (g->support == PF_ON_PARTICLE && g->shape == PF_VECTOR && b->field_velocity < 0)
+            b->field_velocity = f;
+        if (g->support == PF_ON_PARTICLE && g->shape == PF_SPIN && b->field_spin < 0)
+            b->field_spin = f;
+    }
+}
+
+static int cut_basis(bodies *b, error *err)
+{
+    const fe_cell *type = b->space->mesh->type;
+
+    ARENA_NEW(&b->memory, b->cut_basis, b->cut.n * type->n_node, err);
+    for (int q = 0; q < b->cut.n; q++) {
+        double ignored[FE_MAX_NODES][3];
+
+        fe_basis(type, 2, b->cut.x[q], b->cut_basis + q * type->n_node, ignored);
+    }
+    return 0;
+}
+
+/* Bodies that are few cells across. */
+static void warn_resolution(const bodies *b)
+{
+    const space *s = b->space;
+
+    for (int k = 0; k < b->n; k++) {
+        double h = 0, thickness = b->spec[k].shape.thickness;
+        int64_t n = 0;
+
+        for (int64_t a = 0; a < s->n_attached; a++)
+            if (s->attached_particle[a] == k) {
+                h += s->mesh->h[s->attached_cell[a]];
+                n++;
+            }
+        h = n ? h / (double)n : INFINITY;
+        if (thickness < 3.99 * h) {
+            warning_add(
+                b->warnings,
+                "particle %d is %.3g wide, %.2g cells; below 4 cells across forces are off by more than a few "
+                "per cent",
+                k, thickness, thickness / h);
+            return;
+        }
+    }
+}
+
+int bodies_create(bodies *b, const description *d, space *s, const conditions *c, warning_list *w, error *err)
+{
+    enum placement_change ignored;
+    pose *start;
+
+    memset(b, 0, sizeof *b);
+    b->n = d->n_body;
+    b->spec = d->body;
+    b->description = d;
+    b->space = s;
+    b->conditions = c;
+    b->warnings = w;
+    if (b->n == 0)
+        return 0;
+    find_fields(b);
+    b->has_surface = describe_has(d, PF_SURFACE);
+    b->has_ties = describe_has(d, PF_CUT);
+    b->has_pairs = describe_has(d, PF_PAIR);
+    for (int64_t e = 0; e < s->mesh->n_cell; e++)
+        b->h_mean += s->mesh->h[e] / (double)s->mesh->n_cell;
+    ARENA_NEW(&b->memory, b->density, b->n, err);
+    ARENA_NEW(&b->memory, start, b->n, err);
+    for (int k = 0; k < b->n; k++) {
+        b->density[k] = d->body[k].density;
+        start[k] = d->body[k].start;
+    }
+    TRY(cut_rule_create(&b->cut, s->mesh->type, err));
+    TRY(cut_basis(b, err));
+    list_images(b);
+    ARENA_NEW(&b->memory, b->near_cell, s->mesh->n_cell, err);
+    ARENA_NEW(&b->memory, b->envelope.first_tie, s->mesh->n_cell, err);
+    TRY(cell_grid_create(&b->grid, s->mesh, err));
+    TRY(active_create(b, err));
+    TRY(paths_create(b, err));
+    bodies_hold(b);
+    TRY(bodies_place(b, start, &ignored, err));
+    warn_resolution(b);
+    return 0;
+}
+
+void bodies_destroy(bodies *b)
+{
+    placements_destroy(b);
+    free(b->envelope.next_tie);
+    arena_free(&b->envelope.memory);
+    cut_rule_destroy(&b->cut);
+    cell_grid_destroy(&b->grid);
+    arena_free(&b->memory);
+    memset(b, 0, sizeof *b);
+}

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Names of boundaries against those that the mesh has, and boundaries without a condition.  Those of a box are
+ * known before there is a mesh, so that a wrong one is reported with all other mistakes of the case. */
+#include "describe/describe.h"
+
+#include <string.h>
+
+/* Position of a name in the list, or -1 with a message. */
+static int find_name(const description *d, const case_block *b, const char *key, const char *name,
+                     const char *const *list, int n)
+{
+    const char *near;
+    text t = {0};
+
+    for (int i = 0; i < n; i++) {
+        if (strcmp(list[i], name) == 0)
+            return i;
+        text_add(&t, "%s%s", i ? ", " : "", list[i]);
+    }
+    near = text_nearest(name, list, (size_t)n);
+    case_wrong(d->c, b, key, "%s: no boundary is called \"%s\"%s%s%s; the mesh has: %s",
+               key ? "output: forces" : "boundary", name, near ? "; did you mean \"" : "", near ? near : "",
+               near ? "\"?" : "", t.s ? t.s : "no named boundary");
+    text_free(&t);
+    return -1;
+}
+
+/* Bits of the boundaries (by position in the list) that a line names. */
+static uint64_t bits_of(const description *d, const boundary_line *l, const char *const *list, int n, int report)
+{
+    const char *const *name = l->periodic[0] ? l->periodic : &l->name;
+    uint64_t bits = 0;
+
+    for (int s = 0; s < (l->periodic[0] ? 2 : 1); s++)
+        for (int i = 0; name[s] && strcmp(name[s], "*") && i < n; i++)
+            bits |= strcmp(list[i], name[s]) == 0 ? (uint64_t)1 << i : 0;
+    for (int s = 0; report && s < (l->periodic[0] ? 2 : 1); s++)
+        if (name[s] && strcmp(name[s], "*"))
+            find_name(d, l->block, NULL, name[s], list, n);
+    return bits;
+}
+
+static int has_star(const description *d)
+{
+    for (int i = 0; i < d->n_line; i++)
+        if (d->line[i].name && strcmp(d->line[i].name, "*") == 0)
+            return 1;
+    return 0;
+}
+
+static void say_bare(const description *d, uint64_t names, const char *const *list, int n, const char *where)
+{
+    text t = {0};
+
+    for (int k = 0; k < n; k++)
+        if (names >> k & 1)
+            text_add(&t, "%s\"%s\"", t.n ? ", " : "", list[k]);
+    case_wrong(
+        d->c, NULL, NULL,
+        "boundary facets have no condition: %s%s; give them one, or say boundary \"...\" { natural = true } if "
+        "nothing is prescribed there; boundary \"*\" {} means all others",
+        t.s ? t.s : "some without a name", where);
+    text_free(&t);
+}
+
+/* All that hangs on names alone. */
+static void check_names(const description *d, const char *const *list, int n)
+{
+    uint64_t bit[DESCRIBE_MAX_LINES];
+
+    for (int i = 0; i < d->n_line; i++) {
+        const boundary_line *l = &d->line[i];
+
+        bit[i] = bits_of(d, l, list, n, 1);
+        if (l->periodic[0] && l->periodic[1] && strcmp(l->periodic[0], l->periodic[1]) == 0)
+            case_wrong(d->c, l->block, "periodic", "boundary: \"%s\" cannot be periodic with itself",
+                       l->periodic[0]);
+    }
+    for (int i = 0; i < d->n_line; i++)
+        for (int k = 0; k < d->n_line; k++)
+            if (i != k && d->line[i].periodic[0] && (bit[i] & bit[k]))
+                case_wrong(d->c, d->line[k].block, NULL,
+                           "boundary: a boundary that is periodic has another condition as well");
+    for (int f = 0; f < d->output.n_force; f++) {
+        int b = find_name(d, d->output.block, "forces", d->output.force[f], list, n);
+
+        for (int i = 0; b >= 0 && i < d->n_line; i++)
+            if (d->line[i].periodic[0] && (bit[i] >> b & 1))
+                case_wrong(d->c, d->output.block, "forces",
+                           "output: forces: \"%s\" is periodic; no force acts on it", d->output.force[f]);
+    }
+}
+
+void describe_check_box(const description *d)
+{
+    const char *list[6];
+    uint64_t named = 0;
+
+    if (d->mesh.path || !d->mesh.box.dim)
+        return;
+    for (int i = 0; i < 2 * d->dim; i++)
+        list[i] = mesh_box_side(i);
+    check_names(d, list, 2 * d->dim);
+    for (int i = 0; i < d->n_line; i++)
+        named |= bits_of(d, &d->line[i], list, 2 * d->dim, 0);
+    if (!has_star(d) && !d->incomplete && named != ((uint64_t)1 << 2 * d->dim) - 1)
+        say_bare(d, ~named, list, 2 * d->dim, "");
+}
+
+int describe_check(const description *d, const mesh *m, error *err)
+{
+    const char *const *list = (const char *const *)m->name;
+    uint64_t named = 0, bare = 0;
+    int64_t first = -1;
+
+    if (d->mesh.path)
+        check_names(d, list, m->n_name);
+    for (int i = 0; i < d->n_line; i++)
+        named |= bits_of(d, &d->line[i], list, m->n_name, 0);
+    for (int64_t f = 0; f < m->n_facet && !has_star(d); f++)
+        if (!(m->facet[f].names & named)) {
+            bare |= m->facet[f].names;
+            first = first < 0 ? f : first;
+        }
+    if (first >= 0) {
+        const int32_t *node = m->cell + (int64_t)m->facet[first].cell * m->type->n_node;
+        const double *x = m->x + (int64_t)node[m->type->facet[m->facet[first].local][0]] * m->dim;
+        text t = {0};
+
+        text_add(&t, " (the first at %s)", text_point(x, m->dim).s);
+        say_bare(d, bare, list, m->n_name, t.s ? t.s : "");
+        text_free(&t);
+    }
+    return case_finish(d->c, err);
+}
+
+void describe_facets(const description *d, const mesh *m, int line, uint8_t *facet)
+{
+    const char *const *list = (const char *const *)m->name;
+    const boundary_line *l = &d->line[line];
+    uint64_t named = 0, mine = bits_of(d, l, list, m->n_name, 0);
+    int star = l->name && strcmp(l->name, "*") == 0;
+
+    for (int i = 0; i < d->n_line; i++)
+        named |= bits_of(d, &d->line[i], list, m->n_name, 0);
+    for (int64_t f = 0; f < m->n_facet; f++)
+        facet[f] = star ? !(m->facet[f].names & named) : (m->facet[f].names & mine) != 0;
+}

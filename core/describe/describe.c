@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * From the blocks of a case to its description: every block is read, whatever is wrong with another. */
+#include "describe/describe.h"
+
+#include <string.h>
+
+int describe(description *d, case_file *c, registry *r, error *err)
+{
+    memset(d, 0, sizeof *d);
+    d->c = c;
+    describe_mesh(d);
+    if (d->dim == 0)
+        d->dim = 2; /* the mesh block is wrong and said so; go on to find what else is */
+    TRY(describe_terms(d, r, err));
+    TRY(describe_boundaries(d, err));
+    TRY(describe_bodies(d, err));
+    describe_settings(d);
+    describe_output(d);
+    describe_check_box(d);
+    return case_finish(c, err);
+}
+
+int describe_has(const description *d, int where)
+{
+    for (int i = 0; i < d->n_use; i++)
+        if (d->use[i].where == where)
+            return 1;
+    return 0;
+}
+
+void describe_destroy(description *d)
+{
+    arena_free(&d->memory);
+    memset(d, 0, sizeof *d);
+}

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * stepper.h -- time steps of the coupled system, with bodies that move. */
+#ifndef SOLVE_STEPPER_H
+#define SOLVE_STEPPER_H
+
+#include "body/body.h"
+#include "solve/solve.h"
+#include "state/state.h"
+
+/* Residuals of the step's own equations at its solution, of all rows [n_dof]: minus what holds the unknowns. */
+enum reaction {
+    REACTION_ALL,      /* of all terms: at prescribed unknowns minus the force on the boundary           */
+    REACTION_FLUID,    /* of PF_FLUID_FORCE: at the bodies' unknowns minus what the fluid does to them   */
+    REACTION_CONTACT,  /* of the terms on pairs                                                          */
+    REACTION_COUPLING, /* of the terms by which bodies and fluid act on each other                      */
+    REACTIONS
+};
+
+typedef struct stepper {
+    newton_system *system;
+    bodies *bodies;
+    const conditions *conditions;
+    int order;               /* 1: BDF1, 2: BDF2 */
+    int geometry_iterations; /* how often bodies are placed anew within a step */
+    newton_options options;
+    state *now;                                     /* of whom it is */
+    state trial[3];                                 /* attempts */
+    double *history, *level;                        /* [n_dof] */
+    double *reaction[REACTIONS], *saved[REACTIONS]; /* [n_dof]; without bodies only that of all terms */
+    newton_report report;
+    arena memory;
+} stepper;
+
+int stepper_create(stepper *p, newton_system *s, bodies *b, const conditions *c, state *now, error *err);
+/* now goes from t to t + dt; a step that fails is halved, at most 6 times. */
+int stepper_advance(stepper *p, double dt, error *err);
+/* Reactions of the steady solution now. */
+int stepper_steady(stepper *p, error *err);
+void stepper_destroy(stepper *p);
+
+/* Prescribed values at time t into x: boundaries and bodies. */
+int stepper_prescribe(const conditions *c, const bodies *b, double t, double *x, error *err);
+
+/* --- coefficients (bdf.c) --- */
+
+/* du/dt = shift u^{n+1} + c[0] u^n + c[1] u^{n-1} for a step of length dt after one of dt_previous. */
+typedef struct bdf {
+    int order;
+    double shift, c[2];
+    double ratio; /* dt / dt_previous, 0 for order 1: u^n + ratio (u^n - u^{n-1}) extrapolates */
+} bdf;
+
+bdf bdf_of(int order, double dt, double dt_previous);
+
+#endif
