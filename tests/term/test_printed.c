@@ -211,9 +211,9 @@ static void derivatives_agree(void **state)
     int differences = strcmp(c->how, "fd") == 0, by_hand = 0;
     opened *k[2] = {open_shape(c->shape, "auto"), open_shape(c->shape, c->how)};
 
-    for (int i = 0; i < k[0]->p.n_use; i++) {
-        by_hand += k[0]->p.use[i].how == TERM_AUTO && k[0]->p.use[i].term->jacobian;
-        assert_int_equal(k[1]->p.use[i].how, differences ? TERM_FD : TERM_COMPLEX);
+    for (int i = 0; i < k[0]->p.description.n_use; i++) {
+        by_hand += k[0]->p.description.use[i].how == TERM_AUTO && k[0]->p.description.use[i].term->jacobian;
+        assert_int_equal(k[1]->p.description.use[i].how, differences ? TERM_FD : TERM_COMPLEX);
     }
     assert_int_equal(by_hand, 4); /* divergence, inertia, convection, stress */
 

@@ -319,9 +319,9 @@ static void derivatives_agree(void **state)
     const claim *c = *state;
     opened *k[2] = {open_shape(c->shape, "auto"), open_shape(c->shape, "complex")};
 
-    for (int i = 0; i < k[0]->p.n_use; i++) {
-        assert_int_equal(k[0]->p.use[i].how, TERM_AUTO);
-        assert_int_equal(k[1]->p.use[i].how, TERM_COMPLEX);
+    for (int i = 0; i < k[0]->p.description.n_use; i++) {
+        assert_int_equal(k[0]->p.description.use[i].how, TERM_AUTO);
+        assert_int_equal(k[1]->p.description.use[i].how, TERM_COMPLEX);
     }
     for (uint64_t seed = 11; seed < 11 + STATES; seed++) {
         bodies_blocks b[2];
