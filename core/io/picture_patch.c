@@ -30,6 +30,22 @@ void patch_box(const vtu_file *v, size_t c, double low[3], double high[3])
     }
 }
 
+int patch_body(const vtu_file *v, size_t c)
+{
+    size_t point[FE_MAX_NODES];
+    int n = vtu_cell(v, c, point)->n_node, several = 0;
+    int64_t first = v->body.at ? vtu_integer(&v->body, point[0]) : -1;
+
+    for (int i = 0; i < n; i++) {
+        int64_t body = v->body.at ? vtu_integer(&v->body, point[i]) : -1;
+
+        if (body < 0)
+            return PATCH_IN_FLUID;
+        several |= body != first;
+    }
+    return several ? PATCH_IN_SEVERAL : (int)first;
+}
+
 typedef struct nodes {
     const fe_cell *cell;
     double x[FE_MAX_NODES][3], colour[FE_MAX_NODES][3], arrow[FE_MAX_NODES][3];

@@ -383,6 +383,72 @@ int output_series(run *r, double t, error *err)
     return status;
 }
 
+/* Whether bodies move the field, which then has their motion inside of them. */
+static int moves_with_bodies(const problem *p, int f)
+{
+    int moved = 0;
+
+    for (int g = 0; g < p->space.n_field; g++) {
+        const space_field *q = &p->space.field[g];
+
+        moved |= q->support == PF_ON_PARTICLE && q->shape == PF_VECTOR && q->constrains &&
+                 space_find_field(&p->space, q->constrains) == f;
+    }
+    return moved;
+}
+
+/* Nodes inside of the body of an attached pair: its number, and its motion in the fields that it moves. */
+static void enter_body(const problem *p, int64_t a, int32_t *body, double *x)
+{
+    const space *s = &p->space;
+    particle here = problem_image(p, a);
+    double axes[3][3];
+
+    particle_rotation(&here, axes);
+    for (int i = 0; i < p->mesh.type->n_node; i++) {
+        int32_t node = p->mesh.cell[(int64_t)s->attached_cell[a] * p->mesh.type->n_node + i];
+        double at[3] = {0}, v[3];
+
+        memcpy(at, p->mesh.x + (int64_t)node * p->dim, (size_t)p->dim * sizeof *at);
+        if (!(particle_level(&here, (const double(*)[3])axes, at) < 0))
+            continue;
+        body[node] = s->attached_particle[a];
+        for (int k = 0; k < p->dim; k++)
+            at[k] -= p->shift[a][k];
+        problem_motion(p, p->x, body[node], at, v);
+        for (int f = 0; f < s->n_field; f++)
+            if (s->field[f].support == PF_ON_MESH && s->field[f].order == 2 && moves_with_bodies(p, f))
+                memcpy(x + s->first[f][node], v, (size_t)p->dim * sizeof *v);
+    }
+}
+
+static int write_fields(run *r, const char *path, double t, error *err)
+{
+    const problem *p = r->p;
+    vtu_bodies bodies = {0};
+    int32_t *body = NULL;
+    int status;
+
+    shown(r);
+    if (p->n_particle) {
+        body = malloc((size_t)p->mesh.n_node * sizeof *body);
+        if (!body)
+            return error_memory(err, path, (double)p->mesh.n_node * (double)sizeof *body);
+        for (int64_t i = 0; i < p->mesh.n_node; i++)
+            body[i] = -1;
+        for (int64_t k = 0; k < p->n_covered; k++)
+            enter_body(p, p->covered[k], body, r->shown);
+        bodies.body = body;
+        for (int f = 0; f < p->space.n_field; f++)
+            if (p->fluid_only[f] && !moves_with_bodies(p, f))
+                bodies.empty |= 1u << f;
+    }
+    status =
+        vtu_write(path, &p->space, p->output.field, p->output.n_field, r->shown, t, body ? &bodies : NULL, err);
+    free(body);
+    return status;
+}
+
 int output_fields(run *r, double t, error *err)
 {
     char path[4600], name[40];
@@ -401,8 +467,7 @@ int output_fields(run *r, double t, error *err)
     }
     snprintf(name, sizeof name, "fields_%05d.vtu", r->n_file);
     snprintf(path, sizeof path, "%s/%s", r->dir, name);
-    TRY(vtu_write(path, &r->p->space, r->p->output.field, r->p->output.n_field, shown(r),
-                  r->p->time.unsteady ? t : NAN, err));
+    TRY(write_fields(r, path, r->p->time.unsteady ? t : NAN, err));
     r->file[r->n_file] = strdup(name);
     if (!r->file[r->n_file])
         return error_memory(err, "list of files", 0);

@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Bodies in the results: particles.csv (a row a body and step) and, with every file of fields, their
- * outlines as particles_NNNNN.vtp. */
+ * surfaces as particles_NNNNN.vtp. */
 #include "run/run.h"
 
+#include "io/vtp.h"
 #include "io/vtu.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { OUTLINE = 96 };
 
 static const char *const columns_2d[] = {"t",     "id", "x",  "y",      "angle",     "u",         "v",
                                          "omega", "fx", "fy", "torque", "contact_x", "contact_y", "active_nodes"};
@@ -165,83 +164,51 @@ int particles_balance(run *r, double *balance, error *err)
     return 0;
 }
 
-/* Point of the outline in direction angle, in the plane of the body's x and y axes. */
-static void outline_point(const particle *q, double angle, double *x)
+/* Body k at the place of its image that covers attached pair a. */
+static vtp_body body_at(const problem *p, int64_t a)
 {
-    double r[3][3], low = 0, high = 1.5 * q->shape.radius;
+    int k = p->space.attached_particle[a];
+    int64_t u = problem_particle_dof(p, k, PF_VECTOR);
+    vtp_body b = {.id = k, .at = problem_image(p, a)};
 
-    particle_rotation(q, r);
-    for (int i = 0; i < 50; i++) {
-        double mid = 0.5 * (low + high), body[3] = {mid * cos(angle), mid * sin(angle), 0};
+    for (int i = 0; u >= 0 && i < p->dim; i++)
+        b.velocity[i] = p->x[u + i];
+    return b;
+}
 
-        if (shape_level(&q->shape, body) < 0)
-            low = mid;
-        else
-            high = mid;
+/* Bodies in order, each at all places where it meets the domain; pairs of a body and an image lie together. */
+static int find_places(const problem *p, vtp_body *body)
+{
+    int n = 0;
+
+    for (int64_t i = 0; i < p->n_covered; i++) {
+        vtp_body b = body_at(p, p->covered[i]);
+        int known = 0;
+
+        for (int j = n - 1; j >= 0 && body[j].id == b.id; j--)
+            known |= memcmp(body[j].at.x, b.at.x, sizeof b.at.x) == 0;
+        if (!known)
+            body[n++] = b;
     }
-    for (int k = 0; k < 3; k++)
-        x[k] = q->x[k] + low * (r[k][0] * cos(angle) + r[k][1] * sin(angle));
+    return n;
 }
 
-static void add_array(text *t, const char *name, const char *type, int width)
-{
-    text_add(t, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"ascii\">\n", type, name,
-             width);
-}
-
-/* A closed line a body, with a spoke from the centre along its x axis that shows how it is turned. */
 int particles_outline(run *r, error *err)
 {
     const problem *p = r->p;
     char path[4600], name[40], **more;
-    text s = {0};
-    int status, n = p->n_particle;
+    vtp_body *body;
+    int status;
 
-    if (n == 0)
+    if (p->n_particle == 0)
         return 0;
-    text_add(&s,
-             "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-             "byte_order=\"LittleEndian\">\n<PolyData>\n"
-             "<Piece NumberOfPoints=\"%d\" NumberOfLines=\"%d\">\n<Points>\n",
-             n * (OUTLINE + 1), n);
-    add_array(&s, "Points", "Float64", 3);
-    for (int k = 0; k < n; k++) {
-        text_add(&s, "%.9g %.9g %.9g\n", p->particle[k].x[0], p->particle[k].x[1], p->particle[k].x[2]);
-        for (int i = 0; i < OUTLINE; i++) {
-            double x[3];
-
-            outline_point(&p->particle[k], 2 * M_PI * i / OUTLINE, x);
-            text_add(&s, "%.9g %.9g %.9g\n", x[0], x[1], p->dim == 3 ? x[2] : 0.0);
-        }
-    }
-    text_add(&s, "</DataArray>\n</Points>\n<Lines>\n");
-    add_array(&s, "connectivity", "Int32", 1);
-    for (int k = 0; k < n; k++) {
-        for (int i = 0; i <= OUTLINE; i++)
-            text_add(&s, "%d ", k * (OUTLINE + 1) + i);
-        text_add(&s, "%d\n", k * (OUTLINE + 1) + 1);
-    }
-    text_add(&s, "</DataArray>\n");
-    add_array(&s, "offsets", "Int32", 1);
-    for (int k = 0; k < n; k++)
-        text_add(&s, "%d\n", (k + 1) * (OUTLINE + 2));
-    text_add(&s, "</DataArray>\n</Lines>\n<CellData>\n");
-    add_array(&s, "id", "Int32", 1);
-    for (int k = 0; k < n; k++)
-        text_add(&s, "%d\n", k);
-    text_add(&s, "</DataArray>\n");
-    add_array(&s, "velocity", "Float64", 3);
-    for (int k = 0; k < n; k++) {
-        int64_t u = problem_particle_dof(p, k, PF_VECTOR);
-
-        text_add(&s, "%.9g %.9g %.9g\n", u >= 0 ? p->x[u] : 0, u >= 0 ? p->x[u + 1] : 0,
-                 u >= 0 && p->dim == 3 ? p->x[u + 2] : 0);
-    }
-    text_add(&s, "</DataArray>\n</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n");
+    body = malloc((size_t)p->n_particle * (size_t)p->n_image * sizeof *body);
+    if (!body)
+        return error_memory(err, "places of bodies", (double)p->n_particle * p->n_image * (double)sizeof *body);
     snprintf(name, sizeof name, "particles_%05d.vtp", r->n_file - 1);
     snprintf(path, sizeof path, "%s/%s", r->dir, name);
-    status = s.failed ? error_memory(err, path, 0) : file_write(path, s.s, s.n, err);
-    text_free(&s);
+    status = vtp_write(path, p->dim, body, find_places(p, body), err);
+    free(body);
     TRY(status);
     more = realloc(r->body_file, (size_t)(r->n_body_file + 1) * sizeof *more);
     if (!more || !(more[r->n_body_file] = strdup(name)))
