@@ -78,9 +78,8 @@ static int choose_view(const vtu_file *v, const picture_options *o, picture_view
 
     *view = (picture_view){.dim = v->dim, .across = {0, 1}, .normal = 2};
     if (v->dim == 2 && o->slice_axis)
-        return error_set(
-            err, ERR_USAGE,
-            "the fields have two dimensions and are drawn whole; a slice (%c) is possible of three only", axis);
+        return error_set(err, ERR_USAGE, "fields in two dimensions are drawn whole; leave out the slice at %c",
+                         axis);
     if (v->dim == 2)
         return 0;
     if (axis < 'x' || axis > 'z')

@@ -2,12 +2,13 @@
  *
  * A field that has no values in bodies, continued a little into them, so that cells which the surface cuts can be
  * coloured right up to it.  A covered node takes the linear function that fits best, in least squares, the nodes
- * with values of all cells round it,
+ * with values of all cells round it that hold fluid,
  *
  *     sum_j (f_m + g.(x_j - x_m) - f_j)^2 -> min,     C g = b,     C = <dx dx^T>,  b = <dx df>,
  *
- * <> and m: mean over these nodes.  Conjugate gradients from g = 0 give the shortest such g where the nodes lie on
- * a line or in a plane.  Cells in a gap between bodies that hold no node of the fluid take means of neighbours. */
+ * <> and m: mean over these nodes.  Nodes whose neighbours determine g come first; for the others those count, too.
+ * Where they still lie on a line or in a plane, conjugate gradients from g = 0 give the shortest g.  Cells in a gap
+ * between bodies that hold no node of the fluid take means of neighbours. */
 #include "io/picture_parts.h"
 
 #include <math.h>
@@ -81,20 +82,45 @@ static void slope(const double c[3][3], const double *b, double *g)
     }
 }
 
-/* Value of component c at the covered node; it leaves the range of the others by no more than that range again. */
-static double fitted(const fit *t, int c)
+/* Mean place m and covariance of the nodes round a covered one. */
+static void spread(const fit *t, double *m, double c[3][3])
 {
-    double mean = t->f[c] / t->n, spread = t->high[c] - t->low[c], m[3], b[3], cov[3][3], g[3];
-
     for (int k = 0; k < 3; k++)
         m[k] = t->x[k] / t->n;
-    for (int k = 0; k < 3; k++) {
-        b[k] = t->fx[c][k] / t->n - mean * m[k];
+    for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++)
-            cov[k][i] = t->xx[k][i] / t->n - m[k] * m[i];
-    }
-    slope((const double(*)[3])cov, b, g);
-    return fmax(t->low[c] - spread, fmin(t->high[c] + spread, mean - dot(g, m)));
+            c[k][i] = t->xx[k][i] / t->n - m[k] * m[i];
+}
+
+/* Whether the nodes determine a gradient: they differ in each coordinate, and these are not nearly dependent. */
+static int determines_slope(const fit *t, int dim)
+{
+    const double least = 1e-2, flat = 1e-10;
+    double m[3], c[3][3], det, size;
+
+    spread(t, m, c);
+    for (int k = 0; k < dim; k++)
+        if (!(c[k][k] > flat * (c[0][0] + c[1][1] + c[2][2])))
+            return 0;
+    if (dim == 2)
+        c[2][2] = 1;
+    size = c[0][0] * c[1][1] * c[2][2];
+    det = c[0][0] * (c[1][1] * c[2][2] - c[1][2] * c[1][2]) - c[0][1] * (c[0][1] * c[2][2] - c[1][2] * c[0][2]) +
+          c[0][2] * (c[0][1] * c[1][2] - c[1][1] * c[0][2]);
+    return det > least * size;
+}
+
+/* Value of component i at the covered node; it leaves the range of the others by at most three times that range,
+ * as much as a linear field does in a square. */
+static double fitted(const fit *t, int i)
+{
+    double mean = t->f[i] / t->n, range = t->high[i] - t->low[i], m[3], c[3][3], b[3], g[3];
+
+    spread(t, m, c);
+    for (int k = 0; k < 3; k++)
+        b[k] = t->fx[i][k] / t->n - mean * m[k];
+    slope((const double(*)[3])c, b, g);
+    return fmax(t->low[i] - 3 * range, fmin(t->high[i] + 3 * range, mean - dot(g, m)));
 }
 
 static int has_value(const extension *e, size_t j)
@@ -121,26 +147,29 @@ static void add_cell(extension *e, size_t c)
     }
 }
 
-/* One layer of nodes gets values; returns how many.  gaps: only in cells that lie in several bodies, by means. */
-static int layer(extension *e, int gaps)
+enum layer {
+    DETERMINED, /* nodes of cells with fluid whose neighbours determine the gradient */
+    ANY,        /* all nodes of cells with fluid                                     */
+    GAPS        /* nodes of cells that lie in several bodies, by means               */
+};
+
+/* Nodes of a kind get values from their neighbours that have some; returns how many. */
+static int add_layer(extension *e, enum layer kind)
 {
     int n = 0;
 
     for (int k = 0; k < e->n_fit; k++)
         e->fit[k] = (fit){.node = e->fit[k].node};
-    for (size_t c = 0; c < e->v->n_cell; c++) {
-        int body = patch_body(e->v, c);
-
-        if (body == (gaps ? PATCH_IN_SEVERAL : PATCH_IN_FLUID))
+    for (size_t c = 0; c < e->v->n_cell; c++)
+        if (patch_body(e->v, c) == (kind == GAPS ? PATCH_IN_SEVERAL : PATCH_IN_FLUID))
             add_cell(e, c);
-    }
     for (int k = 0; k < e->n_fit; k++) {
         const fit *t = &e->fit[k];
 
-        if (!e->missing[t->node] || !(t->n > 0))
+        if (!e->missing[t->node] || !(t->n > 0) || (kind == DETERMINED && !determines_slope(t, e->v->dim)))
             continue;
         for (int c = 0; c < e->width; c++)
-            e->value[t->node * (size_t)e->width + (size_t)c] = gaps ? t->f[c] / t->n : fitted(t, c);
+            e->value[t->node * (size_t)e->width + (size_t)c] = kind == GAPS ? t->f[c] / t->n : fitted(t, c);
         e->missing[t->node] = 0;
         n++;
     }
@@ -169,8 +198,11 @@ int extend_into_bodies(const vtu_file *v, const vtu_array *field, vtu_array *to,
     for (size_t i = 0; i < v->n_point; i++)
         if (e.missing[i])
             e.fit[e.fit_of[i]].node = i;
-    layer(&e, 0);
-    while (layer(&e, 1) > 0)
+    while (add_layer(&e, DETERMINED) > 0)
+        ;
+    while (add_layer(&e, ANY) > 0)
+        ;
+    while (add_layer(&e, GAPS) > 0)
         ;
     to->kind = VTU_FLOAT64;
     to->at = (const unsigned char *)e.value;

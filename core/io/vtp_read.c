@@ -70,23 +70,21 @@ static int read_arrays(const char *path, const char *s, size_t n, vtp_file *v, n
 
         if (t.closes)
             continue;
-        if (vtu_tag_is(&t, "Piece")) {
-            vtu_tag_count(&t, "NumberOfPoints", &points);
-            vtu_tag_count(&t, "NumberOfLines", &lines);
-            vtu_tag_count(&t, "NumberOfPolys", &polygons);
-            pieces++;
-        }
+        if (vtu_tag_is(&t, "Piece"))
+            pieces +=
+                vtu_tag_count(&t, "NumberOfPoints", &points) &&
+                vtu_tag_count(&t, "NumberOfLines", &lines) + vtu_tag_count(&t, "NumberOfPolys", &polygons) == 1;
         if (!vtu_tag_is(&t, "DataArray") || !vtu_tag_text(&t, "Name", name, sizeof name))
             continue;
         for (int k = 0; k < N_ARRAY; k++)
             if (!array[k].v && !strcmp(name, array_name[k]))
                 TRY(read_numbers(path, name, t.after, &array[k], a, err));
     }
-    if (pieces != 1 || points > n || lines > n || polygons > n || (lines && polygons))
+    if (pieces != 1 || points > n || lines > n || polygons > n)
         return error_set(
             err, ERR_IO,
-            "%s: %d pieces with %llu points, %llu lines and %llu polygons in %zu bytes; expected is one "
-            "piece, of lines or of polygons",
+            "%s: %d pieces with numbers of points and of lines or polygons (%llu, %llu, %llu in %zu bytes), "
+            "expected one; run the case again",
             path, pieces, (unsigned long long)points, (unsigned long long)lines, (unsigned long long)polygons, n);
     v->n_point = (size_t)points;
     v->n_cell = (size_t)(lines + polygons);
