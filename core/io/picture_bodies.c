@@ -71,7 +71,7 @@ static int read_lines(const vtp_file *v, picture_bodies *b, arena *a, error *err
 
         if (m < 5)
             continue;
-        *l = (picture_loop){.first = n, .n = m - 1 - (size_t)spoke, .id = v->id[c], .spoke = spoke && v->moves[c]};
+        *l = (picture_loop){.first = n, .n = m - 1 - (size_t)spoke, .id = v->id[c], .spoke = spoke};
         memcpy(l->centre, v->point[p[0]], sizeof l->centre);
         for (size_t i = 0; i < l->n; i++)
             memcpy(b->point[n++], v->point[p[i + (size_t)spoke]], sizeof *b->point);

@@ -29,11 +29,11 @@ int vtp_write(const char *path, int dim, const vtp_body *body, int n, error *err
 /* The same read back, all in one arena. */
 typedef struct vtp_file {
     size_t n_point, n_cell;
-    double (*point)[3];  /* [n_point]                                                   */
-    size_t *first;       /* [n_cell + 1] where the points of each line or polygon start */
-    size_t *corner;      /* [first[n_cell]] their points, each less than n_point        */
-    int32_t *id, *moves; /* [n_cell]; moves: 1 where the file does not tell             */
-    int polygons;        /* 1: the cells are polygons, 0: lines                         */
+    double (*point)[3]; /* [n_point]                                                   */
+    size_t *first;      /* [n_cell + 1] where the points of each line or polygon start */
+    size_t *corner;     /* [first[n_cell]] their points, each less than n_point        */
+    int32_t *id;        /* [n_cell]                                                    */
+    int polygons;       /* 1: the cells are polygons, 0: lines                         */
 } vtp_file;
 
 /* ERR_IO if the file cannot be read, is cut short or is none of these. */

@@ -16,10 +16,10 @@ typedef struct numbers {
     double *v;
 } numbers;
 
-enum { POINTS, CONNECTIVITY, OFFSETS, ID, MOVES, N_ARRAY };
+enum { POINTS, CONNECTIVITY, OFFSETS, ID, N_ARRAY };
 
 static const char *const array_name[N_ARRAY] = {
-    [POINTS] = "Points", [CONNECTIVITY] = "connectivity", [OFFSETS] = "offsets", [ID] = "id", [MOVES] = "moves"};
+    [POINTS] = "Points", [CONNECTIVITY] = "connectivity", [OFFSETS] = "offsets", [ID] = "id"};
 
 static int is_space(char c)
 {
@@ -140,13 +140,8 @@ int vtp_read(const char *path, vtp_file *v, arena *a, error *err)
         memcpy(v->point, array[POINTS].v, v->n_point * sizeof *v->point);
     TRY(take_cells(path, array, v, a, err));
     TRY(check_count(path, ID, array[ID].n, v->n_cell, err));
-    if (array[MOVES].v)
-        TRY(check_count(path, MOVES, array[MOVES].n, v->n_cell, err));
     ARENA_NEW(a, v->id, v->n_cell, err);
-    ARENA_NEW(a, v->moves, v->n_cell, err);
-    for (size_t c = 0; c < v->n_cell; c++) {
+    for (size_t c = 0; c < v->n_cell; c++)
         v->id[c] = (int32_t)fmax(INT32_MIN, fmin(INT32_MAX, array[ID].v[c]));
-        v->moves[c] = array[MOVES].v ? array[MOVES].v[c] != 0 : 1;
-    }
     return 0;
 }
