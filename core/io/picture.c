@@ -94,6 +94,7 @@ static int choose_view(const vtu_file *v, const picture_options *o, picture_view
     }
     view->at = isnan(o->slice_at) ? 0.5 * (low + high) : o->slice_at;
     nudge = 1e-6 * (high - low);
+    view->near = 1e-9 * (high - low);
     if (!(view->at >= low - nudge && view->at <= high + nudge))
         return error_set(err, ERR_USAGE, "the plane %c = %g lies outside of the domain, which has %c = %g to %g",
                          axis, view->at, axis, low, high);

@@ -19,6 +19,7 @@ typedef struct picture_view {
     int across[2];
     int normal; /* 3D: the coordinate that is at on the plane */
     double at;
+    double near;  /* points at most so far from it are on it  */
     double named; /* at as it was asked for, for the title    */
 } picture_view;
 

@@ -129,6 +129,8 @@ int patch_section(const picture_view *view, const picture_point *const *p, int n
     for (int i = 0; i < n; i++) {
         double d = p[i]->x[view->normal] - view->at;
 
+        if (fabs(d) <= view->near) /* a face in the plane belongs to the cell below, all of it */
+            d = 0;
         if (d < 0) {
             under[nb] = d;
             below[nb++] = p[i];

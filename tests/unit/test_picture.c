@@ -131,8 +131,8 @@ static void draw(const char *path, int field, int normal, double at, drawn *d)
 
     memset(d, 0, sizeof *d);
     assert_int_equal(vtu_open(&d->v, path, &err), 0);
-    d->view =
-        (picture_view){.dim = d->v.dim, .across = {normal == 0, normal == 2 ? 1 : 2}, .normal = normal, .at = at};
+    d->view = (picture_view){
+        .dim = d->v.dim, .across = {normal == 0, normal == 2 ? 1 : 2}, .normal = normal, .at = at, .near = 1e-9};
     assert_int_equal(bodies_read(path, &d->view, INFINITY, &d->bodies, &d->a, &err), 0);
     d->f = (picture_field){.colour = &d->room, .component = field ? 3 : 0};
     assert_int_equal(extend_into_bodies(&d->v, &d->v.field[field], &d->room, &d->a, &err), 0);
@@ -214,6 +214,32 @@ static void a_section_of_bodies_in_3d_is_cut_at_their_surfaces(void **state)
         undraw(&d);
         unmake(&k);
     }
+}
+
+/* Places on faces of cells differ from the plane by rounding. */
+static void a_slice_along_faces_of_cells_has_no_holes(void **state)
+{
+    (void)state;
+    for (int simplex = 0; simplex < 2; simplex++)
+        for (int n = 1; n < 8; n++) {
+            made k;
+            drawn d;
+            double at = 0;
+            int holes = 0;
+
+            make(&k, 3, simplex, n);
+            for (int64_t i = 0; i < k.m.n_node; i++) {
+                k.m.x[3 * i + 2] *= 0.41;
+                at = k.m.x[3 * i + 2] < 0.25 ? fmax(at, k.m.x[3 * i + 2]) : at;
+            }
+            fill(&k, 0, 0);
+            draw(write(&k, 0), 1, 2, at, &d);
+            for (int i = 0; i < 300 * 300; i++)
+                holes += !isfinite(d.r.value[0][i]);
+            assert_int_equal(holes, 0);
+            undraw(&d);
+            unmake(&k);
+        }
 }
 
 /* Area that a closed line goes round. */
@@ -470,6 +496,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_field_without_values_in_a_body_is_drawn_up_to_its_surface),
         cmocka_unit_test(a_section_of_bodies_in_3d_is_cut_at_their_surfaces),
+        cmocka_unit_test(a_slice_along_faces_of_cells_has_no_holes),
         cmocka_unit_test(sections_are_closed_also_where_the_plane_meets_corners_of_triangles),
         cmocka_unit_test(ranges_leave_out_what_stands_inside_an_outline),
         cmocka_unit_test(motion_of_a_body_is_no_part_of_the_range),
