@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Bodies in files and pictures, on fields that are made: linear in the fluid, and absurd inside of bodies. */
-#include "io/file.h"
+ * Pictures of bodies, on fields that are made: linear in the fluid, and absurd inside of bodies. */
 #include "io/picture_parts.h"
-#include "io/vtu.h"
+#include "support/made.h"
 #include "support/program.h"
 
 #include <setjmp.h>
@@ -14,105 +13,9 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define GHOST 100.0
-
-/* A box of the unit size with u (order 2) and p (order 1), and bodies in it. */
-typedef struct made {
-    mesh m;
-    space s;
-    int32_t *body;
-    double *x;
-    vtp_body bodies[4];
-    int n;
-} made;
-
-static double pressure(const double *x)
-{
-    return 2 + 3 * x[0] - x[1] + 0.5 * x[2];
-}
-
-static void make(made *k, int dim, int simplex, int n)
-{
-    static const pf_field u = {.name = "u", .unit = "m/s", .shape = PF_VECTOR, .order = 2};
-    static const pf_field p = {.name = "p", .unit = "Pa", .shape = PF_SCALAR, .order = 1};
-    mesh_box b = {.dim = dim, .simplex = simplex, .high = {1, 1, 1}, .n = {n, n, n}};
-    error err;
-
-    memset(k, 0, sizeof *k);
-    assert_int_equal(mesh_create_box(&b, &k->m, &err), 0);
-    assert_int_equal(mesh_measure(&k->m, &err), 0);
-    assert_int_equal(space_add_field(&k->s, dim, &u, "test", &err), 0);
-    assert_int_equal(space_add_field(&k->s, dim, &p, "test", &err), 0);
-    assert_int_equal(space_number(&k->s, &k->m, &err), 0);
-    k->body = malloc((size_t)k->m.n_node * sizeof *k->body);
-    k->x = calloc((size_t)k->s.n_dof, sizeof *k->x);
-    assert_non_null(k->body);
-    assert_non_null(k->x);
-}
-
-static void unmake(made *k)
-{
-    free(k->body);
-    free(k->x);
-    space_destroy(&k->s);
-    mesh_destroy(&k->m);
-}
-
-static void add_body(made *k, int kind, double a, double b, double c, const double *at, int motion)
-{
-    vtp_body *q = &k->bodies[k->n];
-    error err;
-
-    *q = (vtp_body){.id = k->n++, .velocity = {1, 2, 0}};
-    q->at = (particle){.shape = {.kind = kind, .dim = k->m.dim, .half = {a, b, c}}, .motion = motion, .q = {1}};
-    memcpy(q->at.x, at, (size_t)k->m.dim * sizeof *at);
-    assert_int_equal(shape_measure(&q->at.shape, &err), 0);
-}
-
-static double level(const vtp_body *b, const double *x)
-{
-    double axes[3][3];
-
-    particle_rotation(&b->at, axes);
-    return particle_level(&b->at, (const double(*)[3])axes, x);
-}
-
-/* The velocity is (p, 0, 0) in the fluid, `inside` in bodies, there p is a ghost; nodes deeper than `depth` count.
- */
-static void fill(made *k, double inside, double depth)
-{
-    for (int64_t i = 0; i < k->m.n_node; i++) {
-        double x[3] = {0}, p;
-
-        memcpy(x, k->m.x + i * k->m.dim, (size_t)k->m.dim * sizeof *x);
-        k->body[i] = -1;
-        for (int b = 0; b < k->n; b++)
-            if (level(&k->bodies[b], x) < -depth)
-                k->body[i] = b;
-        p = pressure(x);
-        k->x[k->s.first[0][i]] = k->body[i] < 0 ? p : inside;
-        if (k->s.first[1][i] >= 0)
-            k->x[k->s.first[1][i]] = p;
-    }
-}
-
-/* Writes both files; told: the file of fields tells of the bodies. */
-static const char *write(made *k, int told)
-{
-    static char path[500];
-    const vtu_bodies bodies = {k->body, 1u << 1};
-    char vtp[500];
-    error err;
-
-    snprintf(vtp, sizeof vtp, "%s/particles_00000.vtp", scratch());
-    snprintf(path, sizeof path, "%s/fields_00000.vtu", scratch());
-    assert_int_equal(vtp_write(vtp, k->m.dim, k->bodies, k->n, &err), 0);
-    assert_int_equal(vtu_write(path, &k->s, (const int[]){0, 1}, 2, k->x, NAN, told ? &bodies : NULL, &err), 0);
-    return path;
-}
 
 /* What the picture is made of: component x of u, or p. */
 typedef struct drawn {
@@ -164,9 +67,9 @@ static void check_pixels(const made *k, const drawn *d)
 
             place_of(d, i, j, x);
             for (int b = 0; b < k->n; b++)
-                deepest = fmin(deepest, level(&k->bodies[b], x));
+                deepest = fmin(deepest, made_level(&k->bodies[b], x));
             if (deepest > 0)
-                assert_between(value, pressure(x) - 1e-5, pressure(x) + 1e-5);
+                assert_between(value, made_field(x) - 1e-5, made_field(x) + 1e-5);
             if (fabs(deepest) > 0.03)
                 assert_int_equal(!!d->r.solid[j * 300 + i], deepest < 0);
         }
@@ -179,15 +82,15 @@ static void a_field_without_values_in_a_body_is_drawn_up_to_its_surface(void **s
         made k;
         drawn d;
 
-        make(&k, 2, simplex, 11);
-        add_body(&k, SHAPE_ELLIPSOID, 0.21, 0.21, 0, (const double[]){0.47, 0.53}, PARTICLE_FREE);
-        fill(&k, 0, 0);
-        draw(write(&k, 1), 1, 2, 0, &d);
+        made_create(&k, 2, simplex, 11);
+        made_add(&k, SHAPE_ELLIPSOID, 0.21, 0.21, 0, (const double[]){0.47, 0.53}, PARTICLE_FREE);
+        made_fill(&k, 0, 0);
+        draw(made_write(&k, scratch(), 1), 1, 2, 0, &d);
         check_pixels(&k, &d);
         assert_between(d.r.low, 1 - 1e-9, 1 + 1e-9);
         assert_between(d.r.high, 5 - 1e-9, 5 + 1e-9);
         undraw(&d);
-        unmake(&k);
+        made_destroy(&k);
     }
 }
 
@@ -199,12 +102,12 @@ static void a_section_of_bodies_in_3d_is_cut_at_their_surfaces(void **state)
         drawn d;
         double low, high;
 
-        make(&k, 3, normal == 1, 7);
-        add_body(&k, SHAPE_ELLIPSOID, 0.2, 0.2, 0.2, (const double[]){0.27, 0.3, 0.31}, PARTICLE_FIXED);
-        add_body(&k, SHAPE_BOX, 0.12, 0.2, 0.16, (const double[]){0.8, 0.75, 0.3}, PARTICLE_FREE);
-        add_body(&k, SHAPE_CYLINDER, 0.15, 0.15, 0.1, (const double[]){0.3, 0.75, 0.8}, PARTICLE_FREE);
-        fill(&k, 0, 0);
-        draw(write(&k, 1), 1, normal, 0.31, &d);
+        made_create(&k, 3, normal == 1, 7);
+        made_add(&k, SHAPE_ELLIPSOID, 0.2, 0.2, 0.2, (const double[]){0.27, 0.3, 0.31}, PARTICLE_FIXED);
+        made_add(&k, SHAPE_BOX, 0.12, 0.2, 0.16, (const double[]){0.8, 0.75, 0.3}, PARTICLE_FREE);
+        made_add(&k, SHAPE_CYLINDER, 0.15, 0.15, 0.1, (const double[]){0.3, 0.75, 0.8}, PARTICLE_FREE);
+        made_fill(&k, 0, 0);
+        draw(made_write(&k, scratch(), 1), 1, normal, 0.31, &d);
         assert_int_equal(d.bodies.n, normal == 2 ? 2 : normal == 0 ? 2 : 1);
         check_pixels(&k, &d);
         low = (double[]){2 + 0.93 - 1, 2 - 0.31, 2 - 1 + 0.155}[normal];
@@ -212,7 +115,7 @@ static void a_section_of_bodies_in_3d_is_cut_at_their_surfaces(void **state)
         assert_between(d.r.low, low - 1e-9, low + 1e-9);
         assert_between(d.r.high, high - 1e-9, high + 1e-9);
         undraw(&d);
-        unmake(&k);
+        made_destroy(&k);
     }
 }
 
@@ -227,18 +130,18 @@ static void a_slice_along_faces_of_cells_has_no_holes(void **state)
             double at = 0;
             int holes = 0;
 
-            make(&k, 3, simplex, n);
+            made_create(&k, 3, simplex, n);
             for (int64_t i = 0; i < k.m.n_node; i++) {
                 k.m.x[3 * i + 2] *= 0.41;
                 at = k.m.x[3 * i + 2] < 0.25 ? fmax(at, k.m.x[3 * i + 2]) : at;
             }
-            fill(&k, 0, 0);
-            draw(write(&k, 0), 1, 2, at, &d);
+            made_fill(&k, 0, 0);
+            draw(made_write(&k, scratch(), 0), 1, 2, at, &d);
             for (int i = 0; i < 300 * 300; i++)
                 holes += !isfinite(d.r.value[0][i]);
             assert_int_equal(holes, 0);
             undraw(&d);
-            unmake(&k);
+            made_destroy(&k);
         }
 }
 
@@ -262,19 +165,19 @@ static void sections_are_closed_also_where_the_plane_meets_corners_of_triangles(
     drawn d;
 
     (void)state;
-    make(&k, 3, 0, 4);
-    add_body(&k, SHAPE_ELLIPSOID, 0.25, 0.25, 0.25, (const double[]){0.5, 0.5, 0.5}, PARTICLE_FREE);
-    fill(&k, 0, 0);
+    made_create(&k, 3, 0, 4);
+    made_add(&k, SHAPE_ELLIPSOID, 0.25, 0.25, 0.25, (const double[]){0.5, 0.5, 0.5}, PARTICLE_FREE);
+    made_fill(&k, 0, 0);
     for (int normal = 0; normal < 3; normal++)
         for (int i = 0; i < 4; i++) {
             double exact = M_PI * (0.0625 - (at[i] - 0.5) * (at[i] - 0.5));
 
-            draw(write(&k, 1), 0, normal, at[i], &d);
+            draw(made_write(&k, scratch(), 1), 0, normal, at[i], &d);
             assert_int_equal(d.bodies.n, 1);
             assert_between(area(&d.bodies, d.bodies.loop), 0.99 * exact - 1e-6, exact);
             undraw(&d);
         }
-    unmake(&k);
+    made_destroy(&k);
 }
 
 /* A file of fields that tells nothing of bodies, as earlier versions wrote it. */
@@ -285,14 +188,14 @@ static void ranges_leave_out_what_stands_inside_an_outline(void **state)
         made k;
         drawn d;
 
-        make(&k, dim, 0, 8);
-        add_body(&k, SHAPE_ELLIPSOID, 0.34, 0.34, 0.34, (const double[]){0.5, 0.5, 0.5}, PARTICLE_FIXED);
-        fill(&k, GHOST, 0.9); /* cells that the surface cuts have the linear field */
-        draw(write(&k, 0), 0, 2, 0.5, &d);
+        made_create(&k, dim, 0, 8);
+        made_add(&k, SHAPE_ELLIPSOID, 0.34, 0.34, 0.34, (const double[]){0.5, 0.5, 0.5}, PARTICLE_FIXED);
+        made_fill(&k, GHOST, 0.9); /* cells that the surface cuts have the linear field */
+        draw(made_write(&k, scratch(), 0), 0, 2, 0.5, &d);
         assert_int_equal(d.v.body.at != NULL, 0);
         assert_between(d.r.high, 5 + (dim == 3 ? 0.25 : 0) - 1e-9, 5 + (dim == 3 ? 0.25 : 0) + 1e-9);
         undraw(&d);
-        unmake(&k);
+        made_destroy(&k);
     }
 }
 
@@ -302,13 +205,13 @@ static void motion_of_a_body_is_no_part_of_the_range(void **state)
     drawn d;
 
     (void)state;
-    make(&k, 2, 0, 10);
-    add_body(&k, SHAPE_BOX, 0.2, 0.2, 0, (const double[]){0.5, 0.5}, PARTICLE_FREE); /* along the cells' sides */
-    fill(&k, GHOST, 1e-9);
-    draw(write(&k, 1), 0, 2, 0, &d);
+    made_create(&k, 2, 0, 10);
+    made_add(&k, SHAPE_BOX, 0.2, 0.2, 0, (const double[]){0.5, 0.5}, PARTICLE_FREE); /* along the cells' sides */
+    made_fill(&k, GHOST, 1e-9);
+    draw(made_write(&k, scratch(), 1), 0, 2, 0, &d);
     assert_between(d.r.high, 5 - 1e-9, 5 + 1e-9);
     undraw(&d);
-    unmake(&k);
+    made_destroy(&k);
 }
 
 /* A file of fields that has lost its bodies' surfaces. */
@@ -319,12 +222,12 @@ static void without_surfaces_cells_that_lie_in_a_body_are_left_out(void **state)
     drawn d;
 
     (void)state;
-    make(&k, 2, 0, 8);
-    add_body(&k, SHAPE_ELLIPSOID, 0.34, 0.34, 0, (const double[]){0.5, 0.5}, PARTICLE_FREE);
-    fill(&k, GHOST, 0.9);
+    made_create(&k, 2, 0, 8);
+    made_add(&k, SHAPE_ELLIPSOID, 0.34, 0.34, 0, (const double[]){0.5, 0.5}, PARTICLE_FREE);
+    made_fill(&k, GHOST, 0.9);
     for (int64_t i = 0; i < k.m.n_node; i++)
-        k.body[i] = level(k.bodies, (const double[]){k.m.x[2 * i], k.m.x[2 * i + 1]}) < 0 ? 0 : -1;
-    write(&k, 1);
+        k.body[i] = made_level(k.bodies, (const double[]){k.m.x[2 * i], k.m.x[2 * i + 1]}) < 0 ? 0 : -1;
+    made_write(&k, scratch(), 1);
     snprintf(vtp, sizeof vtp, "%s/particles_00000.vtp", scratch());
     assert_int_equal(remove(vtp), 0);
     snprintf(vtp, sizeof vtp, "%s/fields_00000.vtu", scratch());
@@ -333,7 +236,7 @@ static void without_surfaces_cells_that_lie_in_a_body_are_left_out(void **state)
     assert_between(d.r.high, 5 - 1e-9, 5 + 1e-9);
     assert_true(isnan(d.r.value[0][150 * 300 + 150]));
     undraw(&d);
-    unmake(&k);
+    made_destroy(&k);
 }
 
 /* All nodes of the cells between the bodies lie in one of them. */
@@ -344,11 +247,11 @@ static void a_gap_without_a_node_of_the_fluid_is_coloured(void **state)
     int coloured = 0;
 
     (void)state;
-    make(&k, 2, 0, 6); /* nodes at multiples of 1/12; the gap is 0.51 < x < 0.57 */
-    add_body(&k, SHAPE_BOX, 0.205, 0.25, 0, (const double[]){0.305, 0.5}, PARTICLE_FREE);
-    add_body(&k, SHAPE_BOX, 0.165, 0.25, 0, (const double[]){0.735, 0.5}, PARTICLE_FREE);
-    fill(&k, 0, 0);
-    draw(write(&k, 1), 1, 2, 0, &d);
+    made_create(&k, 2, 0, 6); /* nodes at multiples of 1/12; the gap is 0.51 < x < 0.57 */
+    made_add(&k, SHAPE_BOX, 0.205, 0.25, 0, (const double[]){0.305, 0.5}, PARTICLE_FREE);
+    made_add(&k, SHAPE_BOX, 0.165, 0.25, 0, (const double[]){0.735, 0.5}, PARTICLE_FREE);
+    made_fill(&k, 0, 0);
+    draw(made_write(&k, scratch(), 1), 1, 2, 0, &d);
     for (int j = 0; j < 300; j++)
         for (int i = 154; i < 170; i++) {
             assert_true(isfinite(d.r.value[0][j * 300 + i]));
@@ -358,36 +261,7 @@ static void a_gap_without_a_node_of_the_fluid_is_coloured(void **state)
     assert_between(d.r.low, 1 - 1e-9, 1 + 1e-9);
     assert_between(d.r.high, 5 - 1e-9, 5 + 1e-9);
     undraw(&d);
-    unmake(&k);
-}
-
-static void the_file_of_fields_has_the_bodies_and_nothing_where_a_field_is_empty(void **state)
-{
-    (void)state;
-    for (int dim = 2; dim <= 3; dim++) {
-        error err;
-        made k;
-        vtu_file v;
-        int inside = 0;
-
-        make(&k, dim, 0, 5);
-        add_body(&k, SHAPE_ELLIPSOID, 0.3, 0.3, 0.3, (const double[]){0.5, 0.5, 0.5}, PARTICLE_FREE);
-        fill(&k, 7, 0);
-        assert_int_equal(vtu_open(&v, write(&k, 1), &err), 0);
-        assert_int_equal(v.n_field, 2);
-        assert_int_equal(v.n_point, k.m.n_node);
-        for (size_t i = 0; i < v.n_point; i++) {
-            double p = vtu_number(&v.field[1], i), u = vtu_number(&v.field[0], 3 * i);
-
-            assert_int_equal(vtu_integer(&v.body, i), k.body[i]);
-            assert_int_equal(isnan(p), k.body[i] >= 0);
-            assert_true(u == k.x[k.s.first[0][i]]);
-            inside += k.body[i] >= 0;
-        }
-        assert_true(inside > 5);
-        vtu_close(&v);
-        unmake(&k);
-    }
+    made_destroy(&k);
 }
 
 /* The whole figure; grey (0..255) at a place of the domain. */
@@ -424,12 +298,12 @@ static void only_bodies_that_move_show_how_they_are_turned(void **state)
     drawn d;
 
     (void)state;
-    make(&k, 2, 0, 8);
-    add_body(&k, SHAPE_ELLIPSOID, 0.2, 0.2, 0, (const double[]){0.25, 0.25}, PARTICLE_FIXED);
-    add_body(&k, SHAPE_ELLIPSOID, 0.2, 0.2, 0, (const double[]){0.75, 0.25}, PARTICLE_FREE);
-    add_body(&k, SHAPE_ELLIPSOID, 0.2, 0.2, 0, (const double[]){0.75, 0.75}, PARTICLE_PRESCRIBED);
-    fill(&k, 0, 0);
-    draw(write(&k, 1), 1, 2, 0, &d);
+    made_create(&k, 2, 0, 8);
+    made_add(&k, SHAPE_ELLIPSOID, 0.2, 0.2, 0, (const double[]){0.25, 0.25}, PARTICLE_FIXED);
+    made_add(&k, SHAPE_ELLIPSOID, 0.2, 0.2, 0, (const double[]){0.75, 0.25}, PARTICLE_FREE);
+    made_add(&k, SHAPE_ELLIPSOID, 0.2, 0.2, 0, (const double[]){0.75, 0.75}, PARTICLE_PRESCRIBED);
+    made_fill(&k, 0, 0);
+    draw(made_write(&k, scratch(), 1), 1, 2, 0, &d);
     assert_int_equal(d.bodies.n, 3);
     assert_between(grey_at(&d, (const double[]){0.35, 0.25}), 235, 239); /* the body's colour */
     assert_between(grey_at(&d, (const double[]){0.85, 0.25}), 0, 150);
@@ -437,7 +311,7 @@ static void only_bodies_that_move_show_how_they_are_turned(void **state)
     assert_between(grey_at(&d, (const double[]){0.65, 0.75}), 235, 239);
     assert_int_equal(grey_at(&d, (const double[]){0.25, 0.75}), -1); /* the fluid is coloured */
     undraw(&d);
-    unmake(&k);
+    made_destroy(&k);
 }
 
 static void bodies_beside_a_file_of_another_name_are_not_looked_for(void **state)
@@ -452,45 +326,6 @@ static void bodies_beside_a_file_of_another_name_are_not_looked_for(void **state
     assert_int_equal(b.n, 0);
 }
 
-/* Wherever the file ends, also where its last line was kept. */
-static void a_truncated_file_of_bodies_is_an_error(void **state)
-{
-    static const char last[] = "</VTKFile>\n";
-    unsigned char *bytes, *part;
-    char path[500];
-    arena a = {0};
-    vtp_file v;
-    error err;
-    size_t n;
-    made k;
-
-    (void)state;
-    make(&k, 2, 0, 2);
-    add_body(&k, SHAPE_ELLIPSOID, 0.2, 0.2, 0, (const double[]){0.25, 0.25}, PARTICLE_FREE);
-    fill(&k, 0, 0);
-    write(&k, 1);
-    snprintf(path, sizeof path, "%s/particles_00000.vtp", scratch());
-    assert_int_equal(file_read(path, &a, &bytes, &n, &err), 0);
-    assert_int_equal(vtp_read(path, &v, &a, &err), 0);
-    assert_int_equal(v.n_cell, 1);
-    part = malloc(n + sizeof last);
-    assert_non_null(part);
-    for (size_t cut = 0; cut + 2 < n; cut += 7) {
-        const char *data = strstr((const char *)bytes, "<CellData>");
-
-        memcpy(part, bytes, cut);
-        memcpy(part + cut, last, sizeof last - 1);
-        assert_int_equal(file_write(path, part, cut, &err), 0);
-        assert_int_equal(vtp_read(path, &v, &a, &err), ERR_IO);
-        assert_int_equal(file_write(path, part, cut + sizeof last - 1, &err), 0);
-        if ((const char *)bytes + cut < data)
-            assert_int_equal(vtp_read(path, &v, &a, &err), ERR_IO);
-    }
-    free(part);
-    arena_free(&a);
-    unmake(&k);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -502,10 +337,8 @@ int main(void)
         cmocka_unit_test(motion_of_a_body_is_no_part_of_the_range),
         cmocka_unit_test(without_surfaces_cells_that_lie_in_a_body_are_left_out),
         cmocka_unit_test(a_gap_without_a_node_of_the_fluid_is_coloured),
-        cmocka_unit_test(the_file_of_fields_has_the_bodies_and_nothing_where_a_field_is_empty),
         cmocka_unit_test(only_bodies_that_move_show_how_they_are_turned),
         cmocka_unit_test(bodies_beside_a_file_of_another_name_are_not_looked_for),
-        cmocka_unit_test(a_truncated_file_of_bodies_is_an_error),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
