@@ -12,6 +12,7 @@ typedef struct value {
     int n;                      /* components                                         */
     double constant[VALUE_MAX]; /* if f is NULL                                       */
     int free[VALUE_MAX];        /* component is left free (boundary conditions)       */
+    int of_time;                /* f may depend on t                                  */
     int (*f)(const void *ctx, const double *x, double t, double *out, error *err);
     const void *ctx;
 } value;

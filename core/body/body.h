@@ -165,8 +165,9 @@ int64_t bodies_dof(const bodies *b, int k, int spin);
 
 /* --- fluid inside and outside of bodies --- */
 
-/* Field of the mesh whose values inside of bodies are their motion, or -1; where it has equations in the fluid
- * only. */
+/* Field of the mesh that is the bodies' motion inside of them, or -1; and the same if its equations hold in the
+ * fluid only, so that it has to be given that value. */
+int bodies_rigid_field(const bodies *b);
 int bodies_moved_field(const bodies *b);
 /* Idle unknowns of that field become the motion of the body that covers them (fill.c). */
 int bodies_fill(const bodies *b, const placement *p, double *x, error *err);

@@ -98,10 +98,19 @@ void bodies_velocity(const bodies *b, const pose *at, const double *x, int k, co
     }
 }
 
-int bodies_moved_field(const bodies *b)
+int bodies_rigid_field(const bodies *b)
 {
     const char *name = b->field_velocity >= 0 ? b->space->field[b->field_velocity].constrains : NULL;
-    int f = name ? space_find_field(b->space, name) : -1;
+
+    for (int f = 0; !name && f < b->space->n_field; f++)
+        if (b->space->field[f].support == PF_IN_PARTICLES)
+            name = b->space->field[f].constrains;
+    return name ? space_find_field(b->space, name) : -1;
+}
+
+int bodies_moved_field(const bodies *b)
+{
+    int f = bodies_rigid_field(b);
 
     return f >= 0 && b->fluid_only[f] ? f : -1;
 }

@@ -92,6 +92,17 @@ static int expected(case_file *c, const case_block *b, const char *key, int n)
     return -1;
 }
 
+/* Notes what the function on top of the stack may depend on: one that takes x, y[, z] alone is steady. */
+static void note_function(lua_State *l, int dim, value *out)
+{
+    lua_Debug ar;
+
+    lua_pushvalue(l, -1);
+    lua_getinfo(l, ">u", &ar);
+    out->f = evaluate;
+    out->of_time |= ar.isvararg || ar.nparams > dim;
+}
+
 /* One component from the top of the stack: number, function or free. */
 static int component(lua_State *l, lua_value *v, value *out, int k)
 {
@@ -100,8 +111,8 @@ static int component(lua_State *l, lua_value *v, value *out, int k)
         out->constant[k] = v->constant[k] = lua_tonumber(l, -1);
         lua_pop(l, 1);
     } else if (lua_isfunction(l, -1)) {
+        note_function(l, v->dim, out);
         v->ref[k] = luaL_ref(l, LUA_REGISTRYINDEX);
-        out->f = evaluate;
     } else if (lua_islightuserdata(l, -1)) {
         out->free[k] = 1;
         lua_pop(l, 1);
@@ -125,8 +136,8 @@ int case_value(case_file *c, const case_block *b, const char *key, int n, int di
     *out = (value){.n = n, .ctx = v};
     if (lua_isfunction(l, -1)) {
         v->whole = 1;
+        note_function(l, dim, out);
         v->ref[0] = luaL_ref(l, LUA_REGISTRYINDEX);
-        out->f = evaluate;
         return 1;
     }
     if (n == 1) {

@@ -107,8 +107,8 @@ static int parse_option(int argc, char **argv, int *i, cli *c, error *err)
         c->slice = v;
     } else if ((v = option(argc, argv, i, "--width", &bad))) {
         if (!bad)
-            TRY(number_option("--width", v, 100, &x, err));
-        c->width = bad ? 0 : (int)fmin(x, 10000);
+            TRY(number_option("--width", v, 1, &x, err));
+        c->width = bad ? 0 : (int)fmin(x, 1e9);
     } else if ((v = option(argc, argv, i, "--range", &bad))) {
         if (sscanf(v, "%lf,%lf", &c->low, &c->high) != 2 || !(c->low < c->high))
             return error_set(err, ERR_USAGE, "--range %s: expected LOW,HIGH", v);

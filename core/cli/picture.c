@@ -57,6 +57,40 @@ static void read_title(const char *dir, char *title, size_t n)
         fclose(f);
 }
 
+/* Options of other commands that would have no effect here. */
+static int refuse_options(const cli *o, error *err)
+{
+    const char *name = o->n_set              ? "--set"
+                       : o->n_plugin         ? "--plugin"
+                       : o->json             ? "--json"
+                       : o->memory_limit > 0 ? "--memory"
+                                             : NULL;
+
+    if (!name)
+        return 0;
+    return error_set(
+        err, ERR_USAGE,
+        "picture draws what a run has left and takes no %s: possible are --field, --component, --range, "
+        "--slice, --width, --arrows and --out; parameters go to plugflow run",
+        name);
+}
+
+/* --slice AXIS or AXIS=POSITION. */
+static int read_slice(const char *s, picture_options *p, error *err)
+{
+    char *end = NULL;
+
+    p->slice_at = NAN;
+    if (!s)
+        return 0;
+    p->slice_axis = s[0];
+    if (s[0] && s[1] == '=')
+        p->slice_at = strtod(s + 2, &end);
+    if (!s[0] || !strchr("xyz", s[0]) || (s[1] && (!end || end == s + 2 || *end || !isfinite(p->slice_at))))
+        return error_set(err, ERR_USAGE, "--slice %s: expected x, y or z, or a position as in z=0.5", s);
+    return 0;
+}
+
 int cli_picture(const cli *o, error *err)
 {
     char path[4096], out[4200], title[500], dir[4096];
@@ -67,13 +101,10 @@ int cli_picture(const cli *o, error *err)
                          .width = o->width,
                          .low = o->low,
                          .high = o->high,
-                         .slice_at = NAN,
                          .lines = o->arrows};
 
-    if (o->slice && (!strchr("xyz", o->slice[0]) ||
-                     (o->slice[1] && (o->slice[1] != '=' || sscanf(o->slice + 2, "%lf", &p.slice_at) != 1))))
-        return error_set(err, ERR_USAGE, "--slice %s: expected x, y or z, or a position as in z=0.5", o->slice);
-    p.slice_axis = o->slice ? o->slice[0] : 0;
+    TRY(refuse_options(o, err));
+    TRY(read_slice(o->slice, &p, err));
     if (n > 4 && strcmp(operand + n - 4, ".vtu") == 0) {
         snprintf(path, sizeof path, "%s", operand);
         snprintf(dir, sizeof dir, "%s", strrchr(operand, '/') ? operand : "./");

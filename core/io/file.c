@@ -69,6 +69,41 @@ int file_write(const char *path, const void *data, size_t n, error *err)
     return failed(path, "write", code, err);
 }
 
+/* Their number is asked first: a file that shrinks meanwhile is an error, one that grows is read up to there. */
+static int read_open(const char *path, int fd, arena *a, unsigned char **bytes, size_t *size, error *err)
+{
+    struct stat s;
+
+    if (fstat(fd, &s))
+        return error_set(err, ERR_IO, "%s: %s", path, strerror(errno));
+    if (!S_ISREG(s.st_mode))
+        return error_set(err, ERR_IO, "%s: not a regular file", path);
+    *size = (size_t)s.st_size;
+    ARENA_NEW(a, *bytes, *size + 1, err);
+    for (size_t n = 0; n < *size;) {
+        ssize_t got = read(fd, *bytes + n, *size - n);
+
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            return error_set(err, ERR_IO, "%s: %s after %zu of %zu bytes", path,
+                             got ? strerror(errno) : "file ends", n, *size);
+        n += (size_t)got;
+    }
+    return 0;
+}
+
+int file_read(const char *path, arena *a, unsigned char **bytes, size_t *n, error *err)
+{
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK), status;
+
+    if (fd < 0)
+        return error_set(err, ERR_IO, "%s: %s", path, strerror(errno));
+    status = read_open(path, fd, a, bytes, n, err);
+    close(fd);
+    return status;
+}
+
 int file_make_dir(const char *path, error *err)
 {
     char part[4096];

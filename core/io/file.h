@@ -4,6 +4,7 @@
 #ifndef IO_FILE_H
 #define IO_FILE_H
 
+#include "base/arena.h"
 #include "base/error.h"
 #include "base/text.h"
 
@@ -11,6 +12,8 @@
 
 /* Writes beside it, flushes to disk, renames.  ERR_IO with what to do. */
 int file_write(const char *path, const void *data, size_t n, error *err);
+/* The bytes of a regular file, (*bytes)[*n] with a zero behind them, in the arena.  ERR_IO, ERR_MEMORY. */
+int file_read(const char *path, arena *a, unsigned char **bytes, size_t *n, error *err);
 /* The folder, with those above it; it must be writable. */
 int file_make_dir(const char *path, error *err);
 /* Removes what an earlier run left in the folder: fields_*.vtu, *.csv, *.pvd, *.json, *.jsonl, lines/ . */

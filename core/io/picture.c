@@ -77,6 +77,9 @@ static int choose_view(const vtu_file *v, const picture_options *o, picture_view
     char axis = o->slice_axis ? o->slice_axis : 'z';
 
     *view = (picture_view){.dim = v->dim, .across = {0, 1}, .normal = 2};
+    if (v->dim == 2 && o->slice_axis)
+        return error_set(err, ERR_USAGE, "fields in two dimensions are drawn whole; leave out the slice at %c",
+                         axis);
     if (v->dim == 2)
         return 0;
     if (axis < 'x' || axis > 'z')
@@ -91,6 +94,7 @@ static int choose_view(const vtu_file *v, const picture_options *o, picture_view
     }
     view->at = isnan(o->slice_at) ? 0.5 * (low + high) : o->slice_at;
     nudge = 1e-6 * (high - low);
+    view->near = 1e-9 * (high - low);
     if (!(view->at >= low - nudge && view->at <= high + nudge))
         return error_set(err, ERR_USAGE, "the plane %c = %g lies outside of the domain, which has %c = %g to %g",
                          axis, view->at, axis, low, high);
@@ -280,10 +284,12 @@ static int save(const picture_content *c, int svg, const char *path, error *err)
 }
 
 /* The raster: detail values a side for each of the frame's pixels. */
-static int fill_frame(const vtu_file *v, const picture_view *view, const picture_field *f,
-                      const picture_outline *outline, const picture_figure *g, int detail, picture_raster *r,
-                      arena *a, error *err)
+static int fill_frame(const vtu_file *v, const picture_view *view, const picture_field *f, const picture_content *c,
+                      int detail, picture_raster *r, arena *a, error *err)
 {
+    const picture_outline *outline = c->outline;
+    const picture_figure *g = c->figure;
+
     r->w = (int)g->w * detail;
     r->h = (int)g->h * detail;
     r->left = outline->low[0];
@@ -291,14 +297,16 @@ static int fill_frame(const vtu_file *v, const picture_view *view, const picture
     r->scale[0] = r->w / (outline->high[0] - outline->low[0]);
     r->scale[1] = r->h / (outline->high[1] - outline->low[1]);
     r->n_value = f->arrow ? 3 : 1;
+    TRY(bodies_cover(c->bodies, r, a, err));
     return raster_make(v, view, f, r, a, err);
 }
 
 /* The frame's size hangs on the labels of the colours, their range on the values in the
  * frame: so the values are taken twice if the first guess of the frame does not fit. */
 static int compose(const vtu_file *v, const picture_options *o, const picture_view *view, const picture_field *f,
-                   const picture_outline *outline, picture_content *c, int detail, arena *a, error *err)
+                   picture_content *c, int detail, arena *a, error *err)
 {
+    const picture_outline *outline = c->outline;
     int width = o->width ? o->width : 1200;
     double range[2] = {0, 1};
     picture_figure *g;
@@ -309,13 +317,24 @@ static int compose(const vtu_file *v, const picture_options *o, const picture_vi
     c->figure = g;
     c->raster = r;
     figure_place(g, c->text, outline->low, outline->high, range, width);
-    TRY(fill_frame(v, view, f, outline, g, detail, r, a, err));
+    TRY(fill_frame(v, view, f, c, detail, r, a, err));
     TRY(choose_range(o, r, f->colour, range, err));
     c->map = colour_map_of(range[0], range[1]);
     figure_place(g, c->text, outline->low, outline->high, range, width);
     if (r->w != (int)g->w * detail || r->h != (int)g->h * detail) {
-        TRY(fill_frame(v, view, f, outline, g, detail, r, a, err));
+        TRY(fill_frame(v, view, f, c, detail, r, a, err));
     }
+    return 0;
+}
+
+/* The values that are drawn: up to the surfaces of bodies. */
+static int extend_fields(const vtu_file *v, picture_field *f, vtu_array room[2], arena *a, error *err)
+{
+    TRY(extend_into_bodies(v, f->colour, &room[0], a, err));
+    if (f->arrow)
+        TRY(extend_into_bodies(v, f->arrow, &room[1], a, err));
+    f->colour = &room[0];
+    f->arrow = f->arrow ? &room[1] : NULL;
     return 0;
 }
 
@@ -328,6 +347,7 @@ static int draw_file(const vtu_file *v, const char *vtu_path, const char *title,
     picture_outline outline;
     picture_bodies bodies = {0};
     picture_content c = {.text = &labels, .outline = &outline, .bodies = &bodies, .arrows = o->lines};
+    vtu_array room[2];
     arena a = {0};
     int status;
 
@@ -337,9 +357,11 @@ static int draw_file(const vtu_file *v, const char *vtu_path, const char *title,
     TRY(label_axes(v, &view, &labels, err));
     TRY(label_title(v, &view, title, &labels, err));
     TRY(outline_make(v, &view, &outline, err));
-    status = compose(v, o, &view, &f, &outline, &c, svg && o->width <= 4000 ? 2 : 1, &a, err);
-    if (!status && v->dim == 2)
-        status = bodies_read(vtu_path, v->has_time ? v->time : INFINITY, &bodies, &a, err);
+    status = bodies_read(vtu_path, &view, v->has_time ? v->time : INFINITY, &bodies, &a, err);
+    if (!status)
+        status = extend_fields(v, &f, room, &a, err);
+    if (!status)
+        status = compose(v, o, &view, &f, &c, svg && o->width <= 4000 ? 2 : 1, &a, err);
     if (!status)
         status = save(&c, svg, path, err);
     outline_free(&outline);

@@ -186,7 +186,7 @@ static double speed_at(const picture_raster *r, size_t at)
 {
     double s = hypot((double)r->value[1][at], (double)r->value[2][at]);
 
-    return isfinite(s) ? s : 0;
+    return isfinite(s) && !(r->solid && r->solid[at]) ? s : 0;
 }
 
 /* Arrows on a grid, 25 along the longer side; the fastest is as long as the grid is wide. */
@@ -351,7 +351,7 @@ void figure_draw(cairo_t *cr, const picture_content *c)
     cairo_clip(cr);
     if (c->arrows)
         draw_arrows(cr, c);
-    if (c->bodies && c->bodies->n) {
+    if (c->bodies->n) {
         cairo_save(cr);
         cairo_rectangle(cr, c->figure->x, c->figure->y, c->figure->w, c->figure->h);
         cairo_clip(cr);

@@ -8,6 +8,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "io/colour_map.h"
+#include "io/vtp.h"
 #include "io/vtu_read.h"
 
 #include <cairo.h>
@@ -18,6 +19,7 @@ typedef struct picture_view {
     int across[2];
     int normal; /* 3D: the coordinate that is at on the plane */
     double at;
+    double near;  /* points at most so far from it are on it  */
     double named; /* at as it was asked for, for the title    */
 } picture_view;
 
@@ -47,6 +49,10 @@ typedef void (*picture_triangle)(void *to, const picture_point *a, const picture
 /* Smallest and largest coordinates of the cell's nodes. */
 void patch_box(const vtu_file *v, size_t c, double low[3], double high[3]);
 
+/* The body that holds all nodes of the cell, or one of these. */
+enum { PATCH_IN_FLUID = -1 /* a node is in no body */, PATCH_IN_SEVERAL = -2 };
+int patch_body(const vtu_file *v, size_t c);
+
 /* Cuts cell c into pieces, n along an edge, and hands out the triangles of the picture's plane:
  * the pieces in 2D, their sections in 3D. */
 void patch_triangles(const vtu_file *v, const picture_view *view, const picture_field *f, size_t c, int n,
@@ -54,6 +60,12 @@ void patch_triangles(const vtu_file *v, const picture_view *view, const picture_
 
 /* Section of the segments between the points (n = 3 or 4) with the plane: 0, 3 or 4 points. */
 int patch_section(const picture_view *view, const picture_point *const *p, int n, picture_point section[4]);
+
+/* picture_extend.c -- fields that have no values in bodies. */
+
+/* *to: the field with values, instead of none, at covered nodes of cells that the surface of a body cuts, continued
+ * from the nodes of the fluid; the field as it is if there are no bodies. */
+int extend_into_bodies(const vtu_file *v, const vtu_array *field, vtu_array *to, arena *a, error *err);
 
 /* picture_outline.c -- the lines where the domain ends, in the plane of the picture. */
 
@@ -74,12 +86,48 @@ typedef struct picture_raster {
     double scale[2];  /* pixels per metre, across and up                     */
     float *value[3];  /* as in picture_point, size w * h; NAN: outside */
     int n_value;      /* 1, or 3 with arrows                          */
-    double low, high; /* of the value coloured; low > high: there is none */
+    uint8_t *solid;   /* not 0: the pixel's centre lies in a body, size w * h; NULL: there are none   */
+    double low, high; /* of the value coloured, in the fluid; low > high: there is none */
 } picture_raster;
 
-/* Fills r, of which w, h, left, top, scale and n_value are given; the values come from a. */
+/* Fills r, of which w, h, left, top, scale, n_value and solid are given; the values come from a.  Cells that lie in
+ * one body with all their nodes are left out. */
 int raster_make(const vtu_file *v, const picture_view *view, const picture_field *f, picture_raster *r, arena *a,
                 error *err);
+
+/* picture_bodies.c -- rigid bodies of the run. */
+
+/* A closed line round a body, or round its section. */
+typedef struct picture_loop {
+    size_t first, n; /* its points                              */
+    int id;
+    int spoke; /* 1: from the centre to the first point */
+    double centre[2];
+} picture_loop;
+
+typedef struct picture_bodies {
+    int n;
+    picture_loop *loop;  /* [n]                                          */
+    double (*point)[2];  /* m, in the plane of the picture               */
+    long n_step, n_path; /* n_path: bodies a step                        */
+    double (*step)[2];   /* [n_step] places of all bodies, step after step */
+} picture_bodies;
+
+/* From metres to the figure. */
+typedef struct bodies_place {
+    double (*x)(const void *ctx, double x), (*y)(const void *ctx, double y);
+    const void *ctx;
+} bodies_place;
+
+/* The bodies beside the file of fields, and their paths up to the time; none is no error. */
+int bodies_read(const char *vtu_path, const picture_view *view, double time, picture_bodies *b, arena *a,
+                error *err);
+void bodies_draw(cairo_t *cr, const picture_bodies *b, double em, const bodies_place *place);
+/* Makes r->solid; w, h, left, top and scale are given. */
+int bodies_cover(const picture_bodies *b, picture_raster *r, arena *a, error *err);
+
+/* picture_section.c -- fills the loops of b with the sections of the surfaces of v. */
+int section_make(const vtp_file *v, const picture_view *view, picture_bodies *b, arena *a, error *err);
 
 /* picture_figure.c -- layout, axes and bar. */
 
@@ -106,25 +154,6 @@ typedef struct picture_figure {
 /* Places the domain's box low..high (m) and the colours' range into a figure of the width. */
 void figure_place(picture_figure *g, const picture_text *text, const double low[2], const double high[2],
                   const double range[2], int width);
-
-/* picture_bodies.c -- rigid bodies of the run. */
-
-typedef struct picture_bodies {
-    int n;
-    double (*point)[2]; /* per body: centre, then 96 points of the outline */
-    long n_step;
-    double (*step)[2]; /* places of all bodies, step after step           */
-} picture_bodies;
-
-/* From metres to the figure. */
-typedef struct bodies_place {
-    double (*x)(const void *ctx, double x), (*y)(const void *ctx, double y);
-    const void *ctx;
-} bodies_place;
-
-/* The bodies beside the file of fields; none is no error. */
-int bodies_read(const char *vtu_path, double time, picture_bodies *b, arena *a, error *err);
-void bodies_draw(cairo_t *cr, const picture_bodies *b, double em, const bodies_place *place);
 
 typedef struct picture_content {
     const picture_bodies *bodies;

@@ -30,6 +30,22 @@ void patch_box(const vtu_file *v, size_t c, double low[3], double high[3])
     }
 }
 
+int patch_body(const vtu_file *v, size_t c)
+{
+    size_t point[FE_MAX_NODES];
+    int n = vtu_cell(v, c, point)->n_node, several = 0;
+    int64_t first = v->body.at ? vtu_integer(&v->body, point[0]) : -1;
+
+    for (int i = 0; i < n; i++) {
+        int64_t body = v->body.at ? vtu_integer(&v->body, point[i]) : -1;
+
+        if (body < 0)
+            return PATCH_IN_FLUID;
+        several |= body != first;
+    }
+    return several ? PATCH_IN_SEVERAL : (int)first;
+}
+
 typedef struct nodes {
     const fe_cell *cell;
     double x[FE_MAX_NODES][3], colour[FE_MAX_NODES][3], arrow[FE_MAX_NODES][3];
@@ -113,6 +129,8 @@ int patch_section(const picture_view *view, const picture_point *const *p, int n
     for (int i = 0; i < n; i++) {
         double d = p[i]->x[view->normal] - view->at;
 
+        if (fabs(d) <= view->near) /* a face in the plane belongs to the cell below, all of it */
+            d = 0;
         if (d < 0) {
             under[nb] = d;
             below[nb++] = p[i];

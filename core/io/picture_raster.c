@@ -25,13 +25,20 @@ typedef struct painter {
     const picture_view *view;
 } painter;
 
-static void count_range(picture_raster *r, const picture_point *const *p)
+static void count_value(picture_raster *r, double v)
 {
-    for (int i = 0; i < 3; i++)
-        if (isfinite(p[i]->value[0])) {
-            r->low = fmin(r->low, p[i]->value[0]);
-            r->high = fmax(r->high, p[i]->value[0]);
-        }
+    if (isfinite(v)) {
+        r->low = fmin(r->low, v);
+        r->high = fmax(r->high, v);
+    }
+}
+
+/* Whether a place, in pixels, lies in a body. */
+static int is_solid(const picture_raster *r, double x, double y)
+{
+    size_t i = (size_t)fmax(0, fmin(r->w - 1, floor(x))), j = (size_t)fmax(0, fmin(r->h - 1, floor(y)));
+
+    return r->solid && r->solid[j * (size_t)r->w + i];
 }
 
 /* The triangle in pixels. */
@@ -87,8 +94,10 @@ static void paint(void *to, const picture_point *a, const picture_point *b, cons
     corners q;
     int i0, i1, j0, j1;
 
-    count_range(r, p);
     corners_of(t, p, &q);
+    for (int k = 0; k < 3; k++)
+        if (!is_solid(r, q.x[k], q.y[k]))
+            count_value(r, p[k]->value[0]);
     if (!(fabs(q.area) > 1e-100))
         return;
     centres(fmin(q.x[0], fmin(q.x[1], q.x[2])) - seam, fmax(q.x[0], fmax(q.x[1], q.x[2])) + seam, r->w, &i0, &i1);
@@ -99,6 +108,8 @@ static void paint(void *to, const picture_point *a, const picture_point *b, cons
             double w[3];
             int inside = locate(&q, i, j, w);
 
+            if (inside == 2 && r->solid && !r->solid[at]) /* up to a surface between the corners */
+                count_value(r, w[0] * a->value[0] + w[1] * b->value[0] + w[2] * c->value[0]);
             for (int k = 0; k < r->n_value; k++)
                 if (inside == 2 || (inside == 1 && isnan(r->value[k][at])))
                     r->value[k][at] = (float)(w[0] * a->value[k] + w[1] * b->value[k] + w[2] * c->value[k]);
@@ -132,6 +143,8 @@ int raster_make(const vtu_file *v, const picture_view *view, const picture_field
     for (size_t c = 0; c < v->n_cell; c++) {
         double low[3], high[3], size = 0, bulge;
 
+        if (patch_body(v, c) >= 0)
+            continue;
         patch_box(v, c, low, high);
         for (int k = 0; k < 3; k++)
             size = fmax(size, high[k] - low[k]);

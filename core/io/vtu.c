@@ -4,10 +4,10 @@
  * raw with 64-bit headers; vectors have three components. */
 #include "io/vtu.h"
 
+#include "base/arena.h"
 #include "io/file.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct block {
@@ -15,132 +15,162 @@ typedef struct block {
     uint64_t bytes;
 } block;
 
-/* Values of a field at all nodes, [n_node][1 or 3]. */
-static double *nodal(const space *s, int f, const double *x)
+/* Value of a field at node i of a cell: its own unknown, or, for a field of order 1, the interpolation between
+ * those of the vertices; basis: of the field's order at that node. */
+static void at_node(const space *s, int f, const double *x, const int32_t *cell, const double *basis, double *to)
+{
+    const field_spec *g = &s->field[f];
+    const fe_cell *c = s->mesh->type;
+
+    for (int k = 0; k < g->n_comp; k++) {
+        double sum = 0;
+
+        for (int j = 0; j < fe_n_basis(c, g->order); j++)
+            if (basis[j] != 0)
+                sum += basis[j] * x[s->first[f][cell[g->order == 2 ? j : c->vertex[j]]] + k];
+        to[k] = sum;
+    }
+}
+
+/* Values of a field at all nodes, v[n_node][1 or 3]. */
+static void nodal(const space *s, int f, const double *x, const vtu_bodies *bodies, double *v)
 {
     const mesh *m = s->mesh;
     const field_spec *g = &s->field[f];
-    int width = g->n_comp == 1 ? 1 : 3, n = fe_n_basis(m->type, g->order);
-    double *v = calloc((size_t)(m->n_node * width), sizeof *v);
+    int width = g->n_comp == 1 ? 1 : 3;
     double basis[FE_MAX_NODES][FE_MAX_NODES], ignored[FE_MAX_NODES][3];
 
     for (int i = 0; i < m->type->n_node; i++)
         fe_basis(m->type, g->order, m->type->x[i], basis[i], ignored);
-    for (int64_t e = 0; v && e < m->n_cell; e++)
+    for (int64_t e = 0; e < m->n_cell; e++)
         for (int i = 0; i < m->type->n_node; i++) {
-            double *to = v + (int64_t)m->cell[e * m->type->n_node + i] * width;
+            const int32_t *cell = m->cell + e * m->type->n_node;
 
-            for (int k = 0; k < g->n_comp; k++) {
-                double sum = 0;
-
-                for (int j = 0; j < n; j++) {
-                    int local = g->order == 2 ? j : m->type->vertex[j];
-
-                    if (basis[i][j] != 0)
-                        sum += basis[i][j] * x[s->first[f][m->cell[e * m->type->n_node + local]] + k];
-                }
-                to[k] = sum;
-            }
+            at_node(s, f, x, cell, basis[i], v + (int64_t)cell[i] * width);
         }
-    return v;
+    for (int64_t n = 0; bodies && bodies->empty >> f & 1 && n < m->n_node; n++)
+        for (int k = 0; bodies->body[n] >= 0 && k < width; k++)
+            v[n * width + k] = NAN;
 }
 
-static void add_array(text *head, block *b, const char *type, const char *name, const char *unit, int width,
-                      const void *data, uint64_t bytes, uint64_t *offset)
+/* A file as it is put together: its XML part and the blocks behind it. */
+typedef struct grid_file {
+    text head;
+    int n;
+    block b[SPACE_MAX_FIELDS + 5];
+    uint64_t offset; /* of the next block */
+} grid_file;
+
+static void add_array(grid_file *g, const char *type, const char *name, const char *unit, int width,
+                      const void *data, int64_t bytes)
 {
-    text_add(head, "<DataArray type=\"%s\" Name=\"%s\"", type, name);
+    text_add(&g->head, "<DataArray type=\"%s\" Name=\"%s\"", type, name);
     if (unit)
-        text_add(head, " unit=\"%s\"", unit);
+        text_add(&g->head, " unit=\"%s\"", unit);
     if (width > 1)
-        text_add(head, " NumberOfComponents=\"%d\"", width);
-    text_add(head, " format=\"appended\" offset=\"%llu\"/>\n", (unsigned long long)*offset);
-    *b = (block){data, bytes};
-    *offset += bytes + 8;
+        text_add(&g->head, " NumberOfComponents=\"%d\"", width);
+    text_add(&g->head, " format=\"appended\" offset=\"%llu\"/>\n", (unsigned long long)g->offset);
+    g->b[g->n++] = (block){data, (uint64_t)bytes};
+    g->offset += (uint64_t)bytes + 8;
 }
 
-static int put_together(const char *path, text *head, const block *b, int n, error *err)
+static int add_mesh(grid_file *g, const mesh *m, arena *a, error *err)
 {
-    static const char tail[] = "\n</AppendedData>\n</VTKFile>\n";
-    size_t size = head->n + sizeof tail - 1, at;
-    char *all;
-    int status;
-
-    for (int i = 0; i < n; i++)
-        size += b[i].bytes + 8;
-    all = head->failed ? NULL : malloc(size);
-    if (!all)
-        return error_memory(err, path, (double)size);
-    memcpy(all, head->s, head->n);
-    at = head->n;
-    for (int i = 0; i < n; i++) {
-        memcpy(all + at, &b[i].bytes, 8);
-        memcpy(all + at + 8, b[i].data, b[i].bytes);
-        at += b[i].bytes + 8;
-    }
-    memcpy(all + at, tail, sizeof tail - 1);
-    status = file_write(path, all, size, err);
-    free(all);
-    return status;
-}
-
-int vtu_write(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
-              error *err)
-{
-    const mesh *m = s->mesh;
     const fe_cell *c = m->type;
-    double *points = calloc((size_t)m->n_node * 3, sizeof *points), *values[SPACE_MAX_FIELDS] = {0};
-    int32_t *connectivity = malloc((size_t)(m->n_cell * c->n_node) * sizeof *connectivity);
-    int64_t *ends = malloc((size_t)m->n_cell * sizeof *ends);
-    uint8_t *types = malloc((size_t)m->n_cell);
-    block b[SPACE_MAX_FIELDS + 4];
-    uint64_t offset = 0;
-    text head = {0};
-    int status = 0, ok = points && connectivity && ends && types, nb = 0;
+    double *points;
+    int32_t *connectivity;
+    int64_t *ends;
+    uint8_t *types;
 
-    for (int i = 0; i < n_field && ok; i++)
-        ok = (values[i] = nodal(s, fields[i], x)) != NULL;
-    for (int64_t i = 0; ok && i < m->n_node; i++)
+    ARENA_NEW(a, points, 3 * m->n_node, err);
+    ARENA_NEW(a, connectivity, m->n_cell * c->n_node, err);
+    ARENA_NEW(a, ends, m->n_cell, err);
+    ARENA_NEW(a, types, m->n_cell, err);
+    for (int64_t i = 0; i < m->n_node; i++)
         memcpy(points + 3 * i, m->x + i * m->dim, (size_t)m->dim * sizeof *points);
-    for (int64_t e = 0; ok && e < m->n_cell; e++) {
+    for (int64_t e = 0; e < m->n_cell; e++) {
         ends[e] = (e + 1) * c->n_node;
         types[e] = (uint8_t)c->vtk_type;
         for (int i = 0; i < c->n_node; i++)
             connectivity[e * c->n_node + i] = m->cell[e * c->n_node + c->vtk[i]];
     }
-    text_add(&head, "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-                    "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n");
-    if (isfinite(t)) {
-        text_add(
-            &head,
-            "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">");
-        text_number(&head, t);
-        text_add(&head, "</DataArray>\n</FieldData>\n");
-    }
-    text_add(&head, "<Piece NumberOfPoints=\"%lld\" NumberOfCells=\"%lld\">\n<Points>\n", (long long)m->n_node,
+    text_add(&g->head, "<Piece NumberOfPoints=\"%lld\" NumberOfCells=\"%lld\">\n<Points>\n", (long long)m->n_node,
              (long long)m->n_cell);
-    add_array(&head, &b[nb++], "Float64", "Points", "m", 3, points, (uint64_t)m->n_node * 24, &offset);
-    text_add(&head, "</Points>\n<Cells>\n");
-    add_array(&head, &b[nb++], "Int32", "connectivity", NULL, 1, connectivity,
-              (uint64_t)(m->n_cell * c->n_node) * 4, &offset);
-    add_array(&head, &b[nb++], "Int64", "offsets", NULL, 1, ends, (uint64_t)m->n_cell * 8, &offset);
-    add_array(&head, &b[nb++], "UInt8", "types", NULL, 1, types, (uint64_t)m->n_cell, &offset);
-    text_add(&head, "</Cells>\n<PointData>\n");
+    add_array(g, "Float64", "Points", "m", 3, points, m->n_node * 24);
+    text_add(&g->head, "</Points>\n<Cells>\n");
+    add_array(g, "Int32", "connectivity", NULL, 1, connectivity, m->n_cell * c->n_node * 4);
+    add_array(g, "Int64", "offsets", NULL, 1, ends, m->n_cell * 8);
+    add_array(g, "UInt8", "types", NULL, 1, types, m->n_cell);
+    text_add(&g->head, "</Cells>\n");
+    return 0;
+}
+
+static int add_fields(grid_file *g, const space *s, const int *fields, int n_field, const double *x,
+                      const vtu_bodies *bodies, arena *a, error *err)
+{
+    int64_t n = s->mesh->n_node;
+
+    text_add(&g->head, "<PointData>\n");
     for (int i = 0; i < n_field; i++) {
         const field_spec *f = &s->field[fields[i]];
         int width = f->n_comp == 1 ? 1 : 3;
+        double *values;
 
-        add_array(&head, &b[nb++], "Float64", f->name, f->unit, width, values[i], (uint64_t)(m->n_node * width) * 8,
-                  &offset);
+        ARENA_NEW(a, values, n * width, err);
+        nodal(s, fields[i], x, bodies, values);
+        add_array(g, "Float64", f->name, f->unit, width, values, n * width * 8);
     }
-    text_add(&head, "</PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
-    status = ok ? put_together(path, &head, b, nb, err) : error_memory(err, path, 60.0 * (double)m->n_node);
-    for (int i = 0; i < n_field; i++)
-        free(values[i]);
-    free(points);
-    free(connectivity);
-    free(ends);
-    free(types);
-    text_free(&head);
+    if (bodies)
+        add_array(g, "Int32", "body", NULL, 1, bodies->body, n * 4);
+    text_add(&g->head, "</PointData>\n");
+    return 0;
+}
+
+static int put_together(const char *path, const grid_file *g, arena *a, error *err)
+{
+    static const char tail[] = "\n</AppendedData>\n</VTKFile>\n";
+    size_t size = g->head.n + g->offset + sizeof tail - 1, at = g->head.n;
+    char *all;
+
+    if (g->head.failed)
+        return error_memory(err, "the XML part", (double)size);
+    ARENA_NEW(a, all, size, err);
+    memcpy(all, g->head.s, at);
+    for (int i = 0; i < g->n; i++) {
+        memcpy(all + at, &g->b[i].bytes, 8);
+        memcpy(all + at + 8, g->b[i].data, g->b[i].bytes);
+        at += g->b[i].bytes + 8;
+    }
+    memcpy(all + at, tail, sizeof tail - 1);
+    return file_write(path, all, size, err);
+}
+
+int vtu_write(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
+              const vtu_bodies *bodies, error *err)
+{
+    grid_file g = {0};
+    arena a = {0};
+    int status;
+
+    text_add(&g.head, "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+                      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n");
+    if (isfinite(t)) {
+        text_add(
+            &g.head,
+            "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">");
+        text_number(&g.head, t);
+        text_add(&g.head, "</DataArray>\n</FieldData>\n");
+    }
+    status = add_mesh(&g, s->mesh, &a, err);
+    if (!status)
+        status = add_fields(&g, s, fields, n_field, x, bodies, &a, err);
+    text_add(&g.head, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
+    if (!status)
+        status = put_together(path, &g, &a, err);
+    if (status == ERR_MEMORY)
+        error_prefix(err, "%s: ", path);
+    text_free(&g.head);
+    arena_free(&a);
     return status;
 }
 

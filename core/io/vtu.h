@@ -6,9 +6,18 @@
 
 #include "space/space.h"
 
-/* Writes fields[] (order 1 ones are interpolated to all nodes, exactly) at time t; NAN: a steady state. */
+/* Which nodes lie in rigid bodies, where there is no fluid. */
+typedef struct vtu_bodies {
+    const int32_t *body; /* [n_node] number of the body that holds the node, -1: fluid          */
+    uint32_t empty;      /* bit f: field f of the space has no value in bodies, NaN in the file */
+} vtu_bodies;
+
+/* Writes fields[n_field] of the space (order 1 ones are interpolated to all nodes, exactly) with the unknowns
+ * x[n_dof] at time t; NAN: a steady state.  bodies: the point array "body" is written, too, and fields that are
+ * empty in bodies have no value there; of all others x must hold what is to stand there.  NULL: no bodies.
+ * ERR_IO, ERR_MEMORY; the file is then as it was. */
 int vtu_write(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
-              error *err);
+              const vtu_bodies *bodies, error *err);
 /* The list of files with their times. */
 int vtu_write_pvd(const char *path, const char *const *file, const double *t, int n, error *err);
 

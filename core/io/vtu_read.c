@@ -4,18 +4,15 @@
  * the '_' of <AppendedData>: a UInt64 byte count and as many bytes, little endian.  The arrays
  * stay where they are; vtu_number copies single values out, for they need not be aligned. */
 #include "io/vtu_read.h"
+#include "io/file.h"
 #include "io/vtu_xml.h"
 
 #include <plugflow/mesh.h>
 
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "values are copied out as they lie in the file");
 
@@ -81,33 +78,6 @@ const fe_cell *vtu_cell(const vtu_file *v, size_t c, size_t point[FE_MAX_NODES])
     for (int i = 0; i < cell->n_node; i++)
         point[cell->vtk[i]] = (size_t)vtu_integer(&v->connectivity, first + (size_t)i);
     return cell;
-}
-
-/* The file's bytes.  Their number is asked first: a file that shrinks meanwhile is an error,
- * one that grows is read up to there. */
-static int read_bytes(vtu_file *v, const char *path, int fd, error *err)
-{
-    struct stat s;
-    unsigned char *bytes;
-
-    if (fstat(fd, &s))
-        return error_set(err, ERR_IO, "%s: %s", path, strerror(errno));
-    if (!S_ISREG(s.st_mode))
-        return error_set(err, ERR_IO, "%s: not a regular file", path);
-    v->n_byte = (size_t)s.st_size;
-    ARENA_NEW(&v->memory, bytes, v->n_byte + 1, err);
-    for (size_t n = 0; n < v->n_byte;) {
-        ssize_t got = read(fd, bytes + n, v->n_byte - n);
-
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0)
-            return error_set(err, ERR_IO, "%s: %s after %zu of %zu bytes", path,
-                             got ? strerror(errno) : "file ends", n, v->n_byte);
-        n += (size_t)got;
-    }
-    v->bytes = bytes;
-    return 0;
 }
 
 /* What the XML part tells while it is walked through. */
@@ -223,6 +193,8 @@ static vtu_array *array_target(vtu_file *v, const walk *w, const vtu_array *a, s
         return &v->offset;
     if (cells && !strcmp(a->name, "types"))
         return &v->cell_type;
+    if (!strcmp(w->section, "PointData") && !strcmp(a->name, "body") && a->components == 1 && a->kind == VTU_INT32)
+        return &v->body;
     if (!strcmp(w->section, "PointData") && (a->components == 1 || a->components == 3))
         return &v->field[v->n_field];
     return NULL;
@@ -343,11 +315,13 @@ static int check_cells(vtu_file *v, const char *path, error *err)
     return 0;
 }
 
-static int read_all(vtu_file *v, const char *path, int fd, error *err)
+static int read_all(vtu_file *v, const char *path, error *err)
 {
     walk w = {.path = path};
+    unsigned char *bytes = NULL;
 
-    TRY(read_bytes(v, path, fd, err));
+    TRY(file_read(path, &v->memory, &bytes, &v->n_byte, err));
+    v->bytes = bytes;
     TRY(find_blocks(v, &w, err));
     TRY(read_header(v, &w, err));
     TRY(check_points(v, path, err));
@@ -356,14 +330,10 @@ static int read_all(vtu_file *v, const char *path, int fd, error *err)
 
 int vtu_open(vtu_file *v, const char *path, error *err)
 {
-    int fd, status;
+    int status;
 
     memset(v, 0, sizeof *v);
-    fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (fd < 0)
-        return error_set(err, ERR_IO, "%s: %s", path, strerror(errno));
-    status = read_all(v, path, fd, err);
-    close(fd);
+    status = read_all(v, path, err);
     if (status)
         vtu_close(v);
     return status;

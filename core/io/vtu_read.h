@@ -35,6 +35,7 @@ typedef struct vtu_file {
     vtu_array point, connectivity, offset, cell_type; /* point: 3 components     */
     vtu_array field[VTU_MAX_FIELDS];                  /* PointData of 1 or 3 components */
     int n_field;
+    vtu_array body; /* of each point the number of the rigid body that holds it, -1: fluid; at NULL: not told */
     int has_time;
     double time;
     char time_unit[64];

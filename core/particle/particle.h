@@ -61,18 +61,6 @@ void solid_slope(const solid *b, const double *x, double *g);
 /* Largest extent from the centre in direction n (unit vector of space). */
 double solid_support(const solid *b, const double *n);
 
-enum particle_motion { PARTICLE_FREE, PARTICLE_FIXED, PARTICLE_PRESCRIBED };
-
-/* A body of a case. */
-typedef struct particle {
-    shape shape;
-    double density; /* kg/m^3 */
-    int motion;
-    pose at;
-    value velocity, spin; /* initial, of the surface (fixed), or prescribed            */
-    int held[6];          /* single components of velocity (3) and spin (3) held       */
-} particle;
-
 /* --- cells near a point: a grid of buckets, built once (search.c) --- */
 typedef struct cell_grid {
     int dim, n[3];

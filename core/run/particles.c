@@ -4,14 +4,13 @@
  * outlines as particles_NNNNN.vtp. */
 #include "run/run.h"
 
+#include "io/vtp.h"
 #include "io/vtu.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { OUTLINE = 96 };
 
 static const char *const columns_2d[] = {"t",     "id", "x",  "y",      "angle",     "u",         "v",
                                          "omega", "fx", "fy", "torque", "contact_x", "contact_y", "active_nodes"};
@@ -159,84 +158,31 @@ double particles_balance(const run *r)
     return size > 0 ? sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / size : 0;
 }
 
-/* Point of the outline in direction angle, in the plane of the body's x and y axes. */
-static void outline_point(const solid *q, double angle, double *x)
-{
-    double low = 0, high = 1.5 * q->shape->radius;
-
-    for (int i = 0; i < 50; i++) {
-        double mid = 0.5 * (low + high), body[3] = {mid * cos(angle), mid * sin(angle), 0};
-
-        if (shape_level(q->shape, body) < 0)
-            low = mid;
-        else
-            high = mid;
-    }
-    for (int k = 0; k < 3; k++)
-        x[k] = q->at.x[k] + low * (q->axes[k][0] * cos(angle) + q->axes[k][1] * sin(angle));
-}
-
-static void add_array(text *t, const char *name, const char *type, int width)
-{
-    text_add(t, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"ascii\">\n", type, name,
-             width);
-}
-
-/* A closed line a body, with a spoke from the centre along its x axis that shows how it is turned. */
+/* A .vtp with all places of bodies; of those by images the ones that meet the domain. */
 int particles_outline(run *r, error *err)
 {
     const problem *p = r->p;
     char path[4600], name[40], **more;
-    text s = {0};
-    int status, n = p->bodies.n;
+    vtp_body *body;
+    int status;
 
-    if (n == 0)
+    if (p->bodies.n == 0)
         return 0;
-    text_add(&s,
-             "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-             "byte_order=\"LittleEndian\">\n<PolyData>\n"
-             "<Piece NumberOfPoints=\"%d\" NumberOfLines=\"%d\">\n<Points>\n",
-             n * (OUTLINE + 1), n);
-    add_array(&s, "Points", "Float64", 3);
-    for (int k = 0; k < n; k++) {
-        solid here = solid_at(&p->bodies.spec[k].shape, &p->state.pose[k]);
-
-        text_add(&s, "%.9g %.9g %.9g\n", here.at.x[0], here.at.x[1], here.at.x[2]);
-        for (int i = 0; i < OUTLINE; i++) {
-            double x[3];
-
-            outline_point(&here, 2 * M_PI * i / OUTLINE, x);
-            text_add(&s, "%.9g %.9g %.9g\n", x[0], x[1], p->description.dim == 3 ? x[2] : 0.0);
-        }
-    }
-    text_add(&s, "</DataArray>\n</Points>\n<Lines>\n");
-    add_array(&s, "connectivity", "Int32", 1);
-    for (int k = 0; k < n; k++) {
-        for (int i = 0; i <= OUTLINE; i++)
-            text_add(&s, "%d ", k * (OUTLINE + 1) + i);
-        text_add(&s, "%d\n", k * (OUTLINE + 1) + 1);
-    }
-    text_add(&s, "</DataArray>\n");
-    add_array(&s, "offsets", "Int32", 1);
-    for (int k = 0; k < n; k++)
-        text_add(&s, "%d\n", (k + 1) * (OUTLINE + 2));
-    text_add(&s, "</DataArray>\n</Lines>\n<CellData>\n");
-    add_array(&s, "id", "Int32", 1);
-    for (int k = 0; k < n; k++)
-        text_add(&s, "%d\n", k);
-    text_add(&s, "</DataArray>\n");
-    add_array(&s, "velocity", "Float64", 3);
-    for (int k = 0; k < n; k++) {
+    body = calloc((size_t)r->n_place, sizeof *body);
+    if (!body)
+        return error_memory(err, "places of bodies", (double)r->n_place * (double)sizeof *body);
+    for (int i = 0; i < r->n_place; i++) {
+        int k = r->place[i].body;
         int64_t u = bodies_dof(&p->bodies, k, 0);
 
-        text_add(&s, "%.9g %.9g %.9g\n", u >= 0 ? r->x[u] : 0, u >= 0 ? r->x[u + 1] : 0,
-                 u >= 0 && p->description.dim == 3 ? r->x[u + 2] : 0);
+        body[i] = (vtp_body){.id = k, .moves = p->bodies.spec[k].motion != BODY_FIXED, .at = r->place[i].solid};
+        for (int a = 0; u >= 0 && a < p->mesh.dim; a++)
+            body[i].velocity[a] = r->x[u + a];
     }
-    text_add(&s, "</DataArray>\n</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n");
     snprintf(name, sizeof name, "particles_%05d.vtp", r->n_file - 1);
     snprintf(path, sizeof path, "%s/%s", r->dir, name);
-    status = s.failed ? error_memory(err, path, 0) : file_write(path, s.s, s.n, err);
-    text_free(&s);
+    status = vtp_write(path, p->mesh.dim, body, r->n_place, err);
+    free(body);
     TRY(status);
     more = realloc(r->body_file, (size_t)(r->n_body_file + 1) * sizeof *more);
     if (!more || !(more[r->n_body_file] = strdup(name)))

@@ -176,10 +176,11 @@ static int steady(run *r, const volatile sig_atomic_t *stop, error *err)
     TRY(stepper_steady(r->stepper, err));
     TRY(log_solve(r, 0, 0, &report, err));
     warn_defect(r);
-    TRY(output_series(r, 0, err));
+    TRY(output_take(r, 0, err));
+    TRY(tables_add(r, 0, err));
     TRY(particles_write(r, 0, err));
     TRY(output_fields(r, 0, err));
-    return output_lines(r, 0, err);
+    return lines_write(r, 0, err);
 }
 
 static int one_step(run *r, double next, error *err)
@@ -200,7 +201,8 @@ static int one_step(run *r, double next, error *err)
     warn_defect(r);
     TRY(tell_warnings(r, err));
     TRY(log_solve(r, p->state.t, p->state.dt_previous, &s->report, err));
-    TRY(output_series(r, p->state.t, err));
+    TRY(output_take(r, p->state.t, err));
+    TRY(tables_add(r, p->state.t, err));
     TRY(particles_write(r, p->state.t, err));
     progress = (run_progress){.step = r->result->steps,
                               .steps = lround(ceil((time->stop - time->start) / time->step * (1 - 1e-12))),
@@ -222,6 +224,7 @@ static int march(run *r, const volatile sig_atomic_t *stop, error *err)
     const long n = lround(ceil((time->stop - time->start) / time->step * (1 - 1e-12)));
     long k = 1, files = 1;
 
+    TRY(output_take(r, time->start, err));
     TRY(output_fields(r, time->start, err));
     while (k <= n) {
         double grid = k == n ? time->stop : time->start + (double)k * time->step;
@@ -245,7 +248,7 @@ static int march(run *r, const volatile sig_atomic_t *stop, error *err)
             break;
         }
     }
-    return output_lines(r, p->state.t, err);
+    return lines_write(r, p->state.t, err);
 }
 
 static int unsteady(run *r, const volatile sig_atomic_t *stop, error *err)

@@ -43,6 +43,12 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
 
 /* --- between the files of this folder --- */
 
+/* A body as it stands, or its image by a period of the mesh. */
+typedef struct body_place {
+    int body;
+    solid solid;
+} body_place;
+
 typedef struct run {
     problem *p;
     stepper *stepper; /* the reactions of the last step */
@@ -63,16 +69,40 @@ typedef struct run {
     double *file_time;
     double start;
     double *offset; /* [n_dof] added to the solution in files */
-    double *shown;  /* [n_dof] solution + offset             */
-    text results;   /* JSON of the case's derived results */
+    double *shown;  /* [n_dof] solution + offset; from inside_nodes() on with the bodies' motion in them */
+    int n_place;
+    body_place *place;     /* where bodies are                                        */
+    int32_t *body_of_node; /* [n_node] body that holds the node, or -1; NULL: none       */
+    uint32_t empty;        /* bit f: field f has no value inside of bodies                */
+    text results;          /* JSON of the case's derived results */
     arena memory;
 } run;
 
 int output_open(run *r, error *err);
-int output_series(run *r, double t, error *err); /* forces and probes, every step */
+/* The solution at time t as the files show it: r->shown, and where bodies are.  Before any of what follows. */
+int output_take(run *r, double t, error *err);
 int output_fields(run *r, double t, error *err); /* a .vtu and the .pvd           */
-int output_lines(run *r, double t, error *err);
 int output_event(run *r, const char *event, const char *fields_json, error *err);
+int output_case(const run *r, error *err); /* case.json */
+
+/* Columns of a field in tables: u, v, w for the velocity; name, or name_x, for others.  Their number. */
+int output_components(const field_spec *f, const char *prefix, char (*name)[96]);
+int output_has_columns(const field_spec *f);
+int tables_locate(run *r, error *err); /* ERR_CASE if a probe lies outside the mesh */
+int tables_open(run *r, text *units, error *err);
+int tables_add(run *r, double t, error *err); /* forces and probes, every step */
+int lines_locate(run *r, error *err);
+int lines_write(run *r, double t, error *err);
+
+/* --- inside of bodies (inside.c) --- */
+int inside_open(run *r, error *err);
+void inside_update(run *r);                                    /* after the bodies have moved              */
+const body_place *inside_place(const run *r, const double *x); /* the body that holds x, or NULL */
+/* Value of a field at x in the body: its motion, or NaN; else v stays. */
+void inside_value(const run *r, const body_place *p, int field, const double *x, double *v);
+/* r->body_of_node; the motion of bodies at the nodes that they hold into shown [n_dof]. */
+void inside_nodes(run *r, double *shown);
+
 int particles_open(run *r, error *err);
 double particles_energy(const run *r); /* kinetic, J */
 /* |force on the fluid + force on the bodies| by the terms that couple them, over the sum of forces on bodies. */

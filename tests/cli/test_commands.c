@@ -115,6 +115,32 @@ static void a_slice_of_a_3d_field_is_drawn(void **state)
     assert_ran(plugflow("picture %s/o3 --slice z=0.4 --component x", scratch()), 0, "picture.png");
 }
 
+/* SVG has a body as a filled shape. */
+static void a_body_is_drawn_in_pictures_and_in_slices(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("run cases/fixed_sphere.lua --quiet --set n=4 --out %s/ball", scratch()), 0, NULL);
+    assert_ran(plugflow("picture %s/ball --slice x=0.1 --out %s/ball.svg", scratch(), scratch()), 0, "ball.svg");
+    assert_ran(shell("grep -c 'fill:rgb(93%%,93%%,93%%)' %s/ball.svg", scratch()), 0, "1");
+    assert_ran(plugflow("picture %s/ball --field p --slice z=0.45 --out %s/above.svg", scratch(), scratch()), 0,
+               NULL);
+    assert_ran(shell("grep -c 'fill:rgb(93%%,93%%,93%%)' %s/above.svg", scratch()), 1, "0");
+    assert_ran(shell("tail -n 3 %s/ball/particles_00000.vtp", scratch()), 0, "</VTKFile>");
+}
+
+static void what_a_picture_cannot_do_is_a_usage_error(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("run cases/cavity2d.lua --quiet --set n=4 --out %s/plain", scratch()), 0, NULL);
+    assert_ran(plugflow("picture %s/plain --slice z=0.5", scratch()), 2, "two dimensions", "leave out the slice");
+    assert_ran(plugflow("picture %s/plain --width 100000", scratch()), 2, "100000", "200 to 10000");
+    assert_ran(plugflow("picture %s/plain --width 150", scratch()), 2, "150", "200 to 10000");
+    assert_ran(plugflow("picture %s/plain --set n=4", scratch()), 2, "takes no --set", "--field", "plugflow run");
+    assert_ran(plugflow("picture %s/plain --slice z=half", scratch()), 2, "--slice z=half", "z=0.5");
+    assert_ran(plugflow("picture %s/plain --slice ''", scratch()), 2, "expected x, y or z");
+    assert_true(shell("test -e %s/plain/picture.png", scratch()).code != 0);
+}
+
 static void a_signal_ends_the_run_after_its_step(void **state)
 {
     ran r = shell(
@@ -174,6 +200,8 @@ int main(void)
         cmocka_unit_test(an_earlier_run_in_the_folder_leaves_nothing_behind),
         cmocka_unit_test(a_picture_is_drawn_without_a_display),
         cmocka_unit_test(a_slice_of_a_3d_field_is_drawn),
+        cmocka_unit_test(a_body_is_drawn_in_pictures_and_in_slices),
+        cmocka_unit_test(what_a_picture_cannot_do_is_a_usage_error),
         cmocka_unit_test(a_signal_ends_the_run_after_its_step),
         cmocka_unit_test(the_example_outside_the_tree_builds_tests_and_runs),
         cmocka_unit_test(a_misspelt_command_or_option_is_a_usage_error),

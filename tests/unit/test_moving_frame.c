@@ -47,7 +47,7 @@ static moved move_body(int dim, int turns)
     const char *set[] = {dim == 3 ? "dim=3" : "dim=2"};
     moved m = {.k = open_text(case_text, set, 1)};
     problem *p = &m.k->p;
-    enum placement_change ignored;
+    enum placement_change change;
     error err = {0};
 
     m.history = calloc((size_t)(3 * p->space.n_dof), sizeof(double));
@@ -63,7 +63,9 @@ static moved move_body(int dim, int turns)
         if (step && turns)
             pose_turn(&p->state.pose[0], dim, turn);
     }
-    assert_int_equal(bodies_place(&p->bodies, p->state.pose, &ignored, &err), 0);
+    assert_int_equal(bodies_place(&p->bodies, p->state.pose, &change, &err), 0);
+    if (change == PLACEMENT_PATTERN)
+        assert_int_equal(system_renew(&p->system, &err), 0);
     bodies_clear(&p->bodies, p->bodies.now, p->state.x);
     return m;
 }

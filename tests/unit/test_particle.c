@@ -22,10 +22,15 @@ static void make(mesh *m, int dim, int simplex)
     assert_int_equal(mesh_measure(m, &err), 0);
 }
 
-static particle body(int dim, int kind)
+/* A shape and where it is. */
+typedef struct body_at {
+    shape shape;
+    pose at;
+} body_at;
+
+static body_at body(int dim, int kind)
 {
-    particle p = {.shape = {.kind = kind, .dim = dim, .half = {0.21, 0.13, 0.17}, .exponent = {4, 4}},
-                  .density = 1};
+    body_at p = {.shape = {.kind = kind, .dim = dim, .half = {0.21, 0.13, 0.17}, .exponent = {4, 4}}};
     error err;
 
     p.at.x[0] = 0.47, p.at.x[1] = 0.52, p.at.x[2] = dim == 3 ? 0.49 : 0;
@@ -90,7 +95,7 @@ static void volume_and_surface_of_smooth_bodies(void **state)
     for (int t = 0; t < 4; t++) {
         int dim = 2 + t / 2;
         double a = 0.21, b = 0.13, e, area, volume = 0;
-        particle p = body(dim, SHAPE_ELLIPSOID);
+        body_at p = body(dim, SHAPE_ELLIPSOID);
         solid here;
         surface_sum s = {.p = &here};
         cut_rule r;
@@ -134,7 +139,7 @@ static void surface_of_bodies_with_edges(void **state)
     for (int dim = 2; dim <= 3; dim++)
         for (int k = 0; k < dim - 1; k++)
             for (int turned = 0; turned < 2; turned++) {
-                particle p = body(dim, kinds[k]);
+                body_at p = body(dim, kinds[k]);
                 solid here;
                 surface_sum s = {.p = &here};
                 const double *h = p.shape.half;
@@ -177,7 +182,7 @@ static void volume_centroid_and_inertia_are_exact(void **state)
             int dim = 2 + t / 2;
             mesh m;
             cut_rule r;
-            particle p;
+            body_at p;
             solid here;
             double *w, volume, first[3], second[3][3], raw;
             double(*shift)[3];
@@ -226,7 +231,7 @@ static void formulas_agree_with_quadrature(void **state)
 
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
-        particle disk = body(dim, SHAPE_ELLIPSOID), general = body(dim, SHAPE_SUPERELLIPSOID);
+        body_at disk = body(dim, SHAPE_ELLIPSOID), general = body(dim, SHAPE_SUPERELLIPSOID);
 
         general.shape.exponent[0] = general.shape.exponent[1] = 2;
         assert_int_equal(shape_measure(&general.shape, &err), 0);
@@ -238,7 +243,7 @@ static void formulas_agree_with_quadrature(void **state)
 /* A body turned in many small steps about an axis is where one turn puts it. */
 static void small_turns_add_up(void **state)
 {
-    particle p = body(3, SHAPE_BOX), q = p;
+    body_at p = body(3, SHAPE_BOX), q = p;
 
     (void)state;
     for (int i = 0; i < 1000; i++)

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * lines/NAME.csv: fields along lines, at the end of a run. */
+#include "run/run.h"
+
+#include "space/locate.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void point_of(const line_spec *q, int k, double *x)
+{
+    for (int d = 0; d < 3; d++)
+        x[d] = q->from[d] + (q->to[d] - q->from[d]) * k / (q->n - 1);
+}
+
+int lines_locate(run *r, error *err)
+{
+    const output_spec *o = &r->p->description.output;
+
+    ARENA_NEW(&r->memory, r->line_at, o->n_line + 1, err);
+    for (int i = 0; i < o->n_line; i++) {
+        const line_spec *q = &o->line[i];
+
+        ARENA_NEW(&r->memory, r->line_at[i], q->n, err);
+        for (int k = 0; k < q->n; k++) {
+            double x[3];
+
+            point_of(q, k, x);
+            r->line_at[i][k] = locate_point(&r->p->mesh, x);
+        }
+    }
+    return 0;
+}
+
+static void add_header(const run *r, text *s)
+{
+    const problem *p = r->p;
+
+    text_add(s, "t");
+    for (int d = 0; d < p->mesh.dim; d++)
+        text_add(s, ",%c", "xyz"[d]);
+    for (int f = 0; f < p->space.n_field; f++) {
+        char name[3][96];
+
+        for (int k = 0, n = output_components(&p->space.field[f], "", name); k < n; k++)
+            text_add(s, ",%s", name[k]);
+    }
+    text_add(s, p->bodies.n ? ",body\n" : "\n");
+}
+
+/* One point; outside the mesh, and where a field has no value, an empty cell. */
+static void add_point(const run *r, const located *at, const double *x, double t, text *s)
+{
+    const problem *p = r->p;
+    const body_place *in = at->cell >= 0 ? inside_place(r, x) : NULL;
+
+    text_number(s, t);
+    for (int d = 0; d < p->mesh.dim; d++) {
+        text_add(s, ",");
+        text_number(s, x[d]);
+    }
+    for (int f = 0; f < p->space.n_field; f++) {
+        double v[VALUE_MAX] = {NAN, NAN, NAN};
+
+        if (!output_has_columns(&p->space.field[f]))
+            continue;
+        if (at->cell >= 0)
+            locate_value(&p->space, at, f, r->shown, v, NULL);
+        if (in)
+            inside_value(r, in, f, x, v);
+        for (int c = 0; c < p->space.field[f].n_comp; c++) {
+            text_add(s, ",");
+            if (isfinite(v[c]))
+                text_number(s, v[c]);
+        }
+    }
+    if (p->bodies.n && at->cell >= 0)
+        text_add(s, ",%d\n", in ? in->body : -1);
+    else
+        text_add(s, p->bodies.n ? ",\n" : "\n");
+}
+
+int lines_write(run *r, double t, error *err)
+{
+    const output_spec *o = &r->p->description.output;
+    char path[4600];
+
+    if (o->n_line) {
+        snprintf(path, sizeof path, "%s/lines", r->dir);
+        TRY(file_make_dir(path, err));
+    }
+    for (int i = 0; i < o->n_line; i++) {
+        const line_spec *q = &o->line[i];
+        text s = {0};
+        int status;
+
+        add_header(r, &s);
+        for (int k = 0; k < q->n; k++) {
+            double x[3];
+
+            point_of(q, k, x);
+            add_point(r, &r->line_at[i][k], x, t, &s);
+        }
+        snprintf(path, sizeof path, "%s/lines/%s.csv", r->dir, q->name);
+        status = s.failed ? error_memory(err, path, 0) : file_write(path, s.s, s.n, err);
+        text_free(&s);
+        TRY(status);
+    }
+    return 0;
+}

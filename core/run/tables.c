@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * forces.csv and probes.csv: a row a step. */
+#include "run/run.h"
+
+#include "space/locate.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char axis[] = "xyz", velocity_name[] = "uvw";
+
+int output_has_columns(const field_spec *f)
+{
+    return f->support != PF_ON_PARTICLE; /* those are in particles.csv */
+}
+
+int output_components(const field_spec *f, const char *prefix, char (*name)[96])
+{
+    if (!output_has_columns(f))
+        return 0;
+    for (int k = 0; k < f->n_comp; k++)
+        if (f->n_comp == 1)
+            snprintf(name[k], 96, "%s%s", prefix, f->name);
+        else if (strcmp(f->name, "u") == 0)
+            snprintf(name[k], 96, "%s%c", prefix, velocity_name[k]);
+        else
+            snprintf(name[k], 96, "%s%s_%c", prefix, f->name, axis[k]);
+    return f->n_comp;
+}
+
+typedef struct columns {
+    int n, room;
+    char (*name)[96], (*unit)[32];
+} columns;
+
+static char (*more(columns *c, int n, const char *unit))[96]
+{
+    while (c->n + n > c->room) {
+        c->room = 2 * c->room + 64;
+        c->name = realloc(c->name, (size_t)c->room * sizeof *c->name);
+        c->unit = realloc(c->unit, (size_t)c->room * sizeof *c->unit);
+        if (!c->name || !c->unit)
+            return NULL;
+    }
+    for (int i = 0; i < n; i++)
+        snprintf(c->unit[c->n + i], sizeof *c->unit, "%s", unit);
+    c->n += n;
+    return c->name + c->n - n;
+}
+
+static int open_table(run *r, table *t, const char *file, columns *c, text *units, error *err)
+{
+    char path[4600];
+    const char **name = calloc((size_t)c->n, sizeof *name);
+    int status;
+
+    if (!name)
+        return error_memory(err, file, 0);
+    snprintf(path, sizeof path, "%s/%s", r->dir, file);
+    text_add(units, "%s\n  \"%s\": {", units->n > 1 ? "," : "", file);
+    for (int i = 0; i < c->n; i++) {
+        name[i] = c->name[i];
+        text_add(units, "%s", i ? ", " : "");
+        text_json(units, c->name[i]);
+        text_add(units, ": \"%s\"", c->unit[i]);
+    }
+    text_add(units, "}");
+    status = table_create(t, path, name, c->n, err);
+    free(name);
+    free(c->name);
+    free(c->unit);
+    *c = (columns){0};
+    return status;
+}
+
+/* Columns of one boundary: fx, fy[, fz], torque (2D) or tx, ty, tz, and other reactions by name. */
+static int force_columns(const problem *p, const char *boundary, columns *c)
+{
+    for (int f = 0; f < p->space.n_field; f++) {
+        const field_spec *g = &p->space.field[f];
+        char(*name)[96];
+        int n_torque = p->description.dim == 2 ? 1 : 3;
+
+        if (!g->reaction || g->support != PF_ON_MESH)
+            continue;
+        name = more(c, g->n_comp, g->reaction_unit);
+        for (int k = 0; name && k < g->n_comp; k++)
+            if (g->n_comp == 1)
+                snprintf(name[k], 96, "%.40s.%s", boundary, g->reaction);
+            else
+                snprintf(name[k], 96, "%.40s.%c%c", boundary, g->reaction[0], axis[k]);
+        if (g->n_comp == 1 || !name)
+            continue;
+        name = more(c, n_torque, "N m");
+        for (int k = 0; name && k < n_torque; k++)
+            if (p->description.dim == 2)
+                snprintf(name[k], 96, "%.40s.torque", boundary);
+            else
+                snprintf(name[k], 96, "%.40s.t%c", boundary, axis[k]);
+    }
+    return c->name != NULL;
+}
+
+int tables_open(run *r, text *units, error *err)
+{
+    problem *p = r->p;
+    const output_spec *o = &p->description.output;
+    columns c = {0};
+    char(*name)[96];
+
+    if (o->n_force) {
+        name = more(&c, 1, "s");
+        if (!name)
+            return error_memory(err, "forces.csv", 0);
+        strcpy(*name, "t");
+        for (int i = 0; i < o->n_force; i++)
+            if (!force_columns(p, o->force[i], &c))
+                return error_memory(err, "forces.csv", 0);
+        TRY(open_table(r, &r->forces, "forces.csv", &c, units, err));
+    }
+    if (o->n_probe) {
+        name = more(&c, 1, "s");
+        if (!name)
+            return error_memory(err, "probes.csv", 0);
+        strcpy(*name, "t");
+        for (int i = 0; i < o->n_probe; i++) {
+            char prefix[60];
+
+            snprintf(prefix, sizeof prefix, "%.50s.", o->probe[i].name);
+            for (int f = 0; f < p->space.n_field; f++) {
+                if (!output_has_columns(&p->space.field[f]))
+                    continue;
+                name = more(&c, p->space.field[f].n_comp, p->space.field[f].unit);
+                if (!name)
+                    return error_memory(err, "probes.csv", 0);
+                output_components(&p->space.field[f], prefix, name);
+            }
+            if (p->bodies.n) {
+                name = more(&c, 1, "1");
+                if (!name)
+                    return error_memory(err, "probes.csv", 0);
+                snprintf(*name, sizeof *name, "%sbody", prefix);
+            }
+        }
+        TRY(open_table(r, &r->probes, "probes.csv", &c, units, err));
+    }
+    return 0;
+}
+
+int tables_locate(run *r, error *err)
+{
+    problem *p = r->p;
+    const output_spec *o = &p->description.output;
+
+    ARENA_NEW(&r->memory, r->probe_at, o->n_probe + 1, err);
+    for (int i = 0; i < o->n_probe; i++) {
+        r->probe_at[i] = locate_point(&p->mesh, o->probe[i].x);
+        if (r->probe_at[i].cell < 0)
+            return error_set(err, ERR_CASE, "%s:%d: output: probe \"%s\" at %s lies outside the mesh",
+                             o->block->file, o->block->line, o->probe[i].name,
+                             text_point(o->probe[i].x, p->description.dim).s);
+    }
+    return 0;
+}
+
+/* How many facets at each node prescribe the field: of this boundary in mine, of all in all. */
+static void count_facets(const problem *p, int boundary, int f, int n_local, uint8_t *mine, uint8_t *all)
+{
+    const mesh *m = &p->mesh;
+
+    for (int64_t k = 0; k < m->n_facet; k++) {
+        int prescribes = 0, here = (int)(m->facet[k].names >> boundary & 1);
+
+        for (int i = 0; i < p->description.n_line; i++)
+            prescribes |= p->conditions.facet[i][k] && p->description.line[i].has_value[f];
+        for (int i = 0; (prescribes || here) && i < n_local; i++) {
+            int32_t node =
+                m->cell[(int64_t)m->facet[k].cell * m->type->n_node + m->type->facet[m->facet[k].local][i]];
+
+            mine[node] = (uint8_t)(mine[node] + here);
+            all[node] = (uint8_t)(all[node] + prescribes);
+        }
+    }
+}
+
+/* Reactions of a field on a boundary: minus the residual of the rows that it holds; where boundaries meet that both
+ * prescribe the field, each takes a part by its number of facets there. */
+static double *reaction(const run *r, int boundary, int f, const double *about, double *out)
+{
+    const problem *p = r->p;
+    const mesh *m = &p->mesh;
+    const space *s = &p->space;
+    int n_comp = s->field[f].n_comp,
+        n_local = s->field[f].order == 2 ? m->type->facet_nodes : m->type->facet_vertices;
+    uint8_t *mine = calloc((size_t)(3 * m->n_node), 1), *all = mine + m->n_node, *seen = all + m->n_node;
+    double torque[3] = {0}, sum[3] = {0};
+
+    if (mine)
+        count_facets(p, boundary, f, n_local, mine, all);
+    for (int32_t node = 0; mine && node < m->n_node; node++) {
+        const double *res = r->stepper->reaction[REACTION_ALL] + (mine[node] ? s->first[f][node] : 0);
+        int32_t carrier = mine[node] ? s->dof_node[s->first[f][node]] : 0; /* periodic ends are one node */
+        double share = all[node] > mine[node] ? (double)mine[node] / all[node] : 1, d[3] = {0}, q[3] = {0};
+
+        if (!mine[node] || seen[carrier]++)
+            continue;
+        for (int a = 0; a < n_comp; a++) {
+            q[a] = -share * res[a];
+            sum[a] += q[a];
+            d[a] = n_comp > 1 ? m->x[(int64_t)node * m->dim + a] - about[a] : 0;
+        }
+        torque[0] += d[1] * q[2] - d[2] * q[1];
+        torque[1] += d[2] * q[0] - d[0] * q[2];
+        torque[2] += d[0] * q[1] - d[1] * q[0];
+    }
+    free(mine);
+    for (int a = 0; a < n_comp; a++)
+        *out++ = sum[a];
+    if (n_comp > 1)
+        for (int a = m->dim == 2 ? 2 : 0; a < 3; a++)
+            *out++ = torque[a];
+    return out;
+}
+
+int tables_add(run *r, double t, error *err)
+{
+    const problem *p = r->p;
+    const output_spec *o = &p->description.output;
+    double *row = malloc((size_t)(r->forces.n_column + r->probes.n_column + 1) * sizeof *row), *at = row;
+    int status = row ? 0 : error_memory(err, "tables", 0);
+
+    if (!status && o->n_force) {
+        *at++ = t;
+        for (int i = 0; i < o->n_force; i++)
+            for (int f = 0; f < p->space.n_field; f++)
+                if (p->space.field[f].reaction && p->space.field[f].support == PF_ON_MESH)
+                    at = reaction(r, mesh_find_name(&p->mesh, o->force[i]), f, o->about, at);
+        status = table_add(&r->forces, row, err);
+    }
+    if (!status && o->n_probe) {
+        at = row;
+        *at++ = t;
+        for (int i = 0; i < o->n_probe; i++) {
+            const body_place *in = inside_place(r, o->probe[i].x);
+
+            for (int f = 0; f < p->space.n_field; f++) {
+                if (!output_has_columns(&p->space.field[f]))
+                    continue;
+                locate_value(&p->space, &r->probe_at[i], f, r->shown, at, NULL);
+                if (in)
+                    inside_value(r, in, f, o->probe[i].x, at);
+                at += p->space.field[f].n_comp;
+            }
+            if (p->bodies.n)
+                *at++ = in ? in->body : -1;
+        }
+        status = table_add(&r->probes, row, err);
+    }
+    free(row);
+    return status;
+}
