@@ -49,18 +49,19 @@ static int has_star(const description *d)
     return 0;
 }
 
-static void say_bare(const description *d, uint64_t names, const char *const *list, int n, const char *where)
+static void say_bare(const description *d, int64_t facets, uint64_t names, const char *const *list, int n,
+                     const char *where)
 {
     text t = {0};
 
     for (int k = 0; k < n; k++)
         if (names >> k & 1)
             text_add(&t, "%s\"%s\"", t.n ? ", " : "", list[k]);
-    case_wrong(
-        d->c, NULL, NULL,
-        "boundary facets have no condition: %s%s; give them one, or say boundary \"...\" { natural = true } if "
-        "nothing is prescribed there; boundary \"*\" {} means all others",
-        t.s ? t.s : "some without a name", where);
+    case_wrong(d->c, NULL, NULL,
+               "%lld boundary facets have no condition: %s%s; give them one, or say boundary \"...\" { natural = "
+               "true } if "
+               "nothing is prescribed there; boundary \"*\" {} means all others",
+               (long long)facets, t.s ? t.s : "without a name", where);
     text_free(&t);
 }
 
@@ -92,6 +93,22 @@ static void check_names(const description *d, const char *const *list, int n)
     }
 }
 
+/* Facets of the sides of the box that are not named. */
+static int64_t bare_of_box(const description *d, uint64_t named)
+{
+    const mesh_box *box = &d->mesh.box;
+    int64_t n = 0;
+
+    for (int side = 0; side < 2 * d->dim; side++) {
+        int64_t facets = box->simplex && d->dim == 3 ? 2 : 1;
+
+        for (int k = 0; k < d->dim; k++)
+            facets *= k == side / 2 ? 1 : box->n[k];
+        n += named >> side & 1 ? 0 : facets;
+    }
+    return n;
+}
+
 void describe_check_box(const description *d)
 {
     const char *list[6];
@@ -105,14 +122,14 @@ void describe_check_box(const description *d)
     for (int i = 0; i < d->n_line; i++)
         named |= bits_of(d, &d->line[i], list, 2 * d->dim, 0);
     if (!has_star(d) && !d->incomplete && named != ((uint64_t)1 << 2 * d->dim) - 1)
-        say_bare(d, ~named, list, 2 * d->dim, "");
+        say_bare(d, bare_of_box(d, named), ~named, list, 2 * d->dim, "");
 }
 
 int describe_check(const description *d, const mesh *m, error *err)
 {
     const char *const *list = (const char *const *)m->name;
     uint64_t named = 0, bare = 0;
-    int64_t first = -1;
+    int64_t first = -1, n_bare = 0;
 
     if (d->mesh.path)
         check_names(d, list, m->n_name);
@@ -121,7 +138,7 @@ int describe_check(const description *d, const mesh *m, error *err)
     for (int64_t f = 0; f < m->n_facet && !has_star(d); f++)
         if (!(m->facet[f].names & named)) {
             bare |= m->facet[f].names;
-            first = first < 0 ? f : first;
+            first = n_bare++ ? first : f;
         }
     if (first >= 0) {
         const int32_t *node = m->cell + (int64_t)m->facet[first].cell * m->type->n_node;
@@ -129,7 +146,7 @@ int describe_check(const description *d, const mesh *m, error *err)
         text t = {0};
 
         text_add(&t, " (the first at %s)", text_point(x, m->dim).s);
-        say_bare(d, bare, list, m->n_name, t.s ? t.s : "");
+        say_bare(d, n_bare, bare, list, m->n_name, t.s ? t.s : "");
         text_free(&t);
     }
     return case_finish(d->c, err);

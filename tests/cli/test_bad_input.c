@@ -82,7 +82,7 @@ static void a_missing_or_damaged_mesh_file_is_a_mesh_error(void **state)
 static void an_unknown_plugin_lists_where_it_was_looked_for(void **state)
 {
     (void)state;
-    assert_case(5, MESH FLUID "term \"continuity\" {}\nterm \"momentun\" {}\n" WALLS,
+    assert_case(3, MESH FLUID "term \"continuity\" {}\nterm \"momentun\" {}\n" WALLS,
                 "bad.lua:4: term \"momentun\"", "did you mean \"momentum\"?", "looked for:", "momentun.so");
     assert_case(3, MESH FLUID "term \"continuity\" {}\nterm \"momentum.convektion\" {}\n" WALLS,
                 "has no term \"convektion\"");
