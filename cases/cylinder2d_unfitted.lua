@@ -45,7 +45,7 @@ if unsteady then
   time { scheme = "bdf2", step = dt, stop = stop }
 end
 
-output { every = stop / 20, probes = { front = {0.15, 0.2}, rear = {0.25, 0.2} } }
+output { every = dt * math.ceil(stop / dt / 20 - 1e-9), probes = { front = {0.15, 0.2}, rear = {0.25, 0.2} } }
 
 results(function(r)
   local c = 2 / (mean ^ 2 * d)

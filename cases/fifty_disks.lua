@@ -21,7 +21,7 @@ boundary "*" { u = {0, 0} }
 particles { n = count, shape = disk { radius = 0.1 }, density = 1.1, inside = {{0.03, 0.5}, {1.97, 3.97}}, gap = 0.02, seed = 3 }
 
 time   { step = dt, stop = steps * dt }
-output { every = steps * dt / 20 }
+output { every = dt * math.ceil(steps / 20) }
 
 results(function(r)
   local gap = 1e9

@@ -22,7 +22,7 @@ boundary "*" { u = {0, 0} }
 particle { shape = disk { radius = d / 2 }, density = rho, at = {1, 2} }
 
 time   { scheme = "bdf2", step = dt, stop = stop }
-output { every = stop / 12 }
+output { every = dt * math.ceil(stop / dt / 12 - 1e-9) }
 
 results(function(r)
   local v, most = r.series["p0.v"], 0

@@ -29,7 +29,7 @@ boundary "*"      { u = {0, 0, 0} }
 particle { shape = sphere { radius = d / 2 }, density = 1120, at = {0, 0, 0.1275}, hold = {"x", "y", "spin"} }
 
 time   { scheme = "bdf2", step = dt, stop = stop }
-output { every = stop / 9 }
+output { every = dt * math.ceil(stop / dt / 9 - 1e-9) }
 
 results(function(r)
   local w, most = r.series["p0.w"], 0

@@ -21,7 +21,7 @@ boundary "*" { u = {0, 0, 0} }
 particles { n = 10, shape = sphere { radius = R }, density = 3, inside = {{0.05, 0.05, 0.3}, {0.95, 0.95, 0.95}}, gap = 0.01, seed = 4 }
 
 time   { scheme = "bdf2", step = dt, stop = steps * dt }
-output { every = steps * dt / 8 }
+output { every = dt * math.ceil(steps / 8) }
 
 results(function(r)
   local gap, low = 1e9, 1e9 -- smallest distance of two surfaces, and of a surface to the floor

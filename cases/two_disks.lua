@@ -22,7 +22,7 @@ particle { shape = disk { radius = d / 2 }, density = 1.25, at = {1.001, 5} }
 particle { shape = disk { radius = d / 2 }, density = 1.25, at = {0.999, 4.5} }
 
 time   { step = dt, stop = stop }
-output { every = stop / 20 }
+output { every = dt * math.ceil(stop / dt / 20 - 1e-9) }
 
 results(function(r)
   local x, y, X, Y = r.series["p0.x"], r.series["p0.y"], r.series["p1.x"], r.series["p1.y"]

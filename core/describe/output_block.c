@@ -5,6 +5,7 @@
 
 #include <lauxlib.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -139,7 +140,9 @@ void describe_output(description *d)
 
     o->block = case_find(d->c, "output", 0);
     reader_open(&r, d->c, o->block, "output");
-    o->every = d->time.unsteady ? (d->time.stop - d->time.start) / 20 : 1;
+    o->every = 1;
+    if (d->time.unsteady && d->time.step > 0) /* about twenty files, after whole steps */
+        o->every = d->time.step * fmax(1, ceil((d->time.stop - d->time.start) / d->time.step / 20 - 1e-9));
     reader_number(&r, "every", "time between two files of fields, s", 1e-300, 1e300, &o->every);
     read_fields(d, &r);
     read_probes(d, &r);

@@ -39,6 +39,55 @@ static void periodic_boundaries_are_not_noticed(void **state)
     }
 }
 
+/* Forces in particles.csv are those of the step's own equations: with backward Euler rho_P V du/dt = f + rho_P V g
+ * and I domega/dt = torque hold to Newton's tolerance, also in the step that takes the body through a periodic
+ * boundary; and where it crosses makes no difference. */
+static void forces_are_those_of_the_step_that_was_solved(void **state)
+{
+    static const char *const start[] = {"0.25", "0.9375"}; /* the second one crosses */
+    static const char *const name[] = {"u", "v", "omega", "fx", "fy", "torque"};
+    const double volume = M_PI * 0.15 * 0.15, inertia = 2 * volume * 0.15 * 0.15 / 2, dt = 0.05;
+    double *column[2][6], size[6] = {0};
+    int n = 0;
+
+    (void)state;
+    put_file("seam.lua",
+             "local x0 = param('x0', 0.5)\nmesh { box = {{0,0},{1,1}}, cells = {16,16} }\n"
+             "fluid { density = 1, viscosity = 0.1, gravity = {2,0} }\nterm 'continuity' {}\nterm 'momentum' {}\n"
+             "particulate 'sharp'\nboundary { periodic = {'left','right'} }\nboundary '*' { u = {0,0} }\n"
+             "particle { shape = disk{radius=0.15}, density = 2, at = {x0,0.4} }\n"
+             "time { scheme = 'bdf1', step = 0.05, stop = 1 }\n");
+    for (int k = 0; k < 2; k++) {
+        char file[300];
+
+        assert_ran(
+            plugflow("run %s/seam.lua --quiet --set x0=%s --out %s/seam%d", scratch(), start[k], scratch(), k), 0,
+            NULL);
+        snprintf(file, sizeof file, "%s/seam%d/particles.csv", scratch(), k);
+        for (int c = 0; c < 6; c++)
+            n = csv_column(file, name[c], &column[k][c]);
+        assert_int_equal(n, 20);
+        for (int i = 0; i < n; i++) {
+            const double *u = column[k][0], *w = column[k][2];
+            double ax = (u[i] - (i ? u[i - 1] : 0)) / dt, aw = (w[i] - (i ? w[i - 1] : 0)) / dt;
+
+            assert_between(2 * volume * (ax - 2) - column[k][3][i], -1e-9, 1e-9);
+            assert_between(inertia * aw - column[k][5][i], -1e-9, 1e-9);
+        }
+    }
+    for (int c = 0; c < 6; c++) {
+        for (int i = 0; i < n; i++)
+            size[c] = fmax(size[c], fabs(column[0][c][i]));
+        if (c == 1 || c == 4) /* across the channel: by the size along it */
+            size[c] = size[c - 1];
+        for (int i = 0; i < n; i++)
+            assert_between((column[1][c][i] - column[0][c][i]) / size[c], -1e-6,
+                           1e-6); /* Newton stops at 1e-11, cuts are round-off apart */
+        free(column[0][c]);
+        free(column[1][c]);
+    }
+}
+
 /* One disk pushes another through the film between them: the film passes on a force, what one gets the other
  * gives, and the second goes faster than with what the mesh resolves of the film. */
 static void lubrication_acts_between_bodies(void **state)
@@ -123,6 +172,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(periodic_boundaries_are_not_noticed),
+        cmocka_unit_test(forces_are_those_of_the_step_that_was_solved),
         cmocka_unit_test(lubrication_acts_between_bodies),
         cmocka_unit_test(a_body_that_leaves_is_told_when_and_where),
         cmocka_unit_test(the_log_has_energy_and_balance),
