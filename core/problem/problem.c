@@ -106,7 +106,7 @@ int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *e
     TRY(describe_check(d, &p->mesh, err));
     TRY(make_periodic(p, err));
     TRY(space_number(&p->space, &d->fields, &p->mesh, d->n_body, err));
-    TRY(conditions_create(&p->conditions, d, &p->space, err));
+    TRY(conditions_create(&p->conditions, d, &p->space, &p->warnings, err));
     TRY(bodies_create(&p->bodies, d, &p->space, &p->conditions, &p->warnings, err));
     TRY(space_constrain(&p->space, err));
     TRY(make_system(p, r, err));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Boundary conditions on a mesh.  Lines apply in the order of the case, "*" (what no other line names) first; where
- * two meet in a node the later one holds. */
+ * two meet in a node the later one holds, but for the normal components of a vector field (corners.c). */
 #include "space/conditions.h"
 
 #include "base/order.h"
@@ -44,26 +44,6 @@ static int add_set(conditions *c, space *s, int line, int field, int comp, const
     return 0;
 }
 
-/* Axis along which a facet's normal lies, or -1. */
-static int facet_axis(const mesh *m, int64_t f)
-{
-    const int32_t *cell = m->cell + (int64_t)m->facet[f].cell * m->type->n_node;
-
-    for (int k = 0; k < m->dim; k++) {
-        double low = INFINITY, high = -INFINITY;
-
-        for (int i = 0; i < m->type->facet_nodes; i++) {
-            double x = m->x[(int64_t)cell[m->type->facet[m->facet[f].local][i]] * m->dim + k];
-
-            low = fmin(low, x);
-            high = fmax(high, x);
-        }
-        if (high - low < 1e-8 * m->h[m->facet[f].cell])
-            return k;
-    }
-    return -1;
-}
-
 /* No flow through: the component of every vector field along the normal of each facet is zero. */
 static int add_symmetry(conditions *c, const description *d, space *s, int line, error *err)
 {
@@ -89,12 +69,45 @@ static int add_symmetry(conditions *c, const description *d, space *s, int line,
     return 0;
 }
 
-int conditions_create(conditions *c, const description *d, space *s, error *err)
+/* rank[n_line]: "*" first, then the order of the case. */
+static void rank_lines(const description *d, int *rank)
 {
-    int sets = 0;
+    int n = 0;
+
+    for (int star = 1; star >= 0; star--)
+        for (int i = 0; i < d->n_line; i++) {
+            const char *name = d->line[i].name;
+
+            if ((name && strcmp(name, "*") == 0) == star)
+                rank[i] = n++;
+        }
+}
+
+/* Everything that holds at the start, for the first time: what is wrong with it is told. */
+static int try_out(const conditions *c, const space *s, warning_list *w, error *err)
+{
+    double t = c->description->time.start, excess = 0, *x = calloc((size_t)s->n_dof + 1, sizeof *x);
+    int status = x ? conditions_apply(c, s, t, x, err) : error_memory(err, "boundary values", 8.0 * (double)s->n_dof);
+
+    if (!status)
+        status = corners_apply(&c->corners, c->description, s, t, x, w, err);
+    if (!status)
+        status = net_flow_check(c, s, x, t, &excess, err);
+    if (!status && excess > 1e-9)
+        warning_add(w, "what flows in through the boundaries does not quite flow out: %.2g of it; it is spread over the domain",
+                    excess);
+    free(x);
+    return status;
+}
+
+int conditions_create(conditions *c, const description *d, space *s, warning_list *w, error *err)
+{
+    int sets = 0, rank[DESCRIBE_MAX_LINES];
 
     memset(c, 0, sizeof *c);
+    c->description = d;
     c->n_line = d->n_line;
+    rank_lines(d, rank);
     ARENA_NEW(&c->memory, c->facet, d->n_line + 1, err);
     for (int i = 0; i < d->n_line; i++) {
         ARENA_NEW(&c->memory, c->facet[i], s->mesh->n_facet + 1, err);
@@ -102,11 +115,11 @@ int conditions_create(conditions *c, const description *d, space *s, error *err)
         sets += SPACE_MAX_FIELDS * (1 + d->line[i].symmetry * d->dim);
     }
     ARENA_NEW(&c->memory, c->set, sets + 1, err);
-    for (int star = 1; star >= 0; star--)
+    for (int at = 0; at < d->n_line; at++)
         for (int i = 0; i < d->n_line; i++) {
             const boundary_line *l = &d->line[i];
 
-            if (l->periodic[0] || (strcmp(l->name, "*") == 0) != star)
+            if (rank[i] != at || l->periodic[0])
                 continue;
             if (l->symmetry)
                 TRY(add_symmetry(c, d, s, i, err));
@@ -114,12 +127,18 @@ int conditions_create(conditions *c, const description *d, space *s, error *err)
                 if (l->has_value[f])
                     TRY(add_set(c, s, i, f, -1, &l->value[f], NULL, -1, err));
         }
-    return case_finish(d->c, err);
+    for (int f = 0; f < s->n_field; f++)
+        if (s->field[f].shape == PF_VECTOR && s->field[f].support == PF_ON_MESH && s->field[f].order == 2)
+            TRY(corners_find(&c->corners, d, s, c->facet, rank, f, err));
+    TRY(net_flow_create(c, d, s, err));
+    TRY(case_finish(d->c, err));
+    return try_out(c, s, w, err);
 }
 
 int conditions_apply(const conditions *c, const space *s, double t, double *x, error *err)
 {
     int dim = s->mesh->dim;
+    double ignored;
 
     for (int i = 0; i < c->n_set; i++) {
         const dirichlet_set *d = &c->set[i];
@@ -135,11 +154,13 @@ int conditions_apply(const conditions *c, const space *s, double t, double *x, e
                     to[k] = v[k];
         }
     }
-    return 0;
+    TRY(corners_apply(&c->corners, c->description, s, t, x, NULL, err));
+    return c->flow.of_time ? net_flow_check(c, s, x, t, &ignored, err) : 0;
 }
 
 void conditions_destroy(conditions *c)
 {
+    corners_destroy(&c->corners);
     arena_free(&c->memory);
     memset(c, 0, sizeof *c);
 }
