@@ -7,6 +7,9 @@
 #include <math.h>
 #include <string.h>
 
+/* Depth in radii up to which a place counts as on the surface. */
+#define SURFACE 1e-9
+
 /* Places of bodies: each as it stands, and its images by the periods of the mesh that may reach into the domain. */
 int inside_open(run *r, error *err)
 {
@@ -40,6 +43,17 @@ static void find_places(run *r)
         }
 }
 
+/* Whether a place lies below the surface; a probe on the surface itself is in the fluid. */
+static int holds(const body_place *p, const double *x)
+{
+    double level = solid_level(&p->solid, x), g[3] = {0}, depth = SURFACE * p->solid.shape->radius;
+
+    if (level >= 0)
+        return 0;
+    solid_slope(&p->solid, x, g);
+    return level * level > depth * depth * (g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+}
+
 const body_place *inside_place(const run *r, const double *x)
 {
     for (const body_place *p = r->place; p < r->place + r->n_place; p++) {
@@ -47,7 +61,7 @@ const body_place *inside_place(const run *r, const double *x)
 
         for (int i = 0; i < r->p->mesh.dim; i++)
             d += (x[i] - p->solid.at.x[i]) * (x[i] - p->solid.at.x[i]);
-        if (d < p->solid.shape->radius * p->solid.shape->radius && solid_level(&p->solid, x) < 0)
+        if (d < p->solid.shape->radius * p->solid.shape->radius && holds(p, x))
             return p;
     }
     return NULL;
@@ -76,7 +90,7 @@ static void enter(run *r, const body_place *p, double *shown)
             double x[3] = {0};
 
             memcpy(x, m->x + (int64_t)node * m->dim, (size_t)m->dim * sizeof *x);
-            if (r->body_of_node[node] >= 0 || !(solid_level(&p->solid, x) < 0))
+            if (r->body_of_node[node] >= 0 || !holds(p, x))
                 continue;
             r->body_of_node[node] = p->body;
             if (rigid >= 0)

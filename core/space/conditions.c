@@ -87,14 +87,17 @@ static void rank_lines(const description *d, int *rank)
 static int try_out(const conditions *c, const space *s, warning_list *w, error *err)
 {
     double t = c->description->time.start, excess = 0, *x = calloc((size_t)s->n_dof + 1, sizeof *x);
-    int status = x ? conditions_apply(c, s, t, x, err) : error_memory(err, "boundary values", 8.0 * (double)s->n_dof);
+    int status =
+        x ? conditions_apply(c, s, t, x, err) : error_memory(err, "boundary values", 8.0 * (double)s->n_dof);
 
     if (!status)
         status = corners_apply(&c->corners, c->description, s, t, x, w, err);
     if (!status)
         status = net_flow_check(c, s, x, t, &excess, err);
     if (!status && excess > 1e-9)
-        warning_add(w, "what flows in through the boundaries does not quite flow out: %.2g of it; it is spread over the domain",
+        warning_add(w,
+                    "what flows in through the boundaries does not quite flow out: %.2g of it; it is spread over "
+                    "the domain",
                     excess);
     free(x);
     return status;

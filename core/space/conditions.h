@@ -18,8 +18,8 @@ typedef struct dirichlet_set {
     int32_t *node;
 } dirichlet_set;
 
-/* What flows out through the lines of a case: flux = sum of weight * x[dof], of a vector field whose divergence some
- * equation holds, if its normal component is prescribed on all of the boundary. */
+/* What flows out through the lines of a case: flux = sum of weight * x[dof], of a vector field whose divergence
+ * some equation holds, if its normal component is prescribed on all of the boundary. */
 typedef struct net_flow {
     int closed;  /* it is */
     int of_time; /* what is prescribed may change */
@@ -40,11 +40,11 @@ typedef struct conditions {
     arena memory;
 } conditions;
 
-/* Finds facets and nodes, and marks the unknowns in space.fixed; conditions that contradict each other at a node are
- * warnings.  ERR_CASE, also if more flows in than out at the start (see below). */
+/* Finds facets and nodes, and marks the unknowns in space.fixed; conditions that contradict each other at a node
+ * are warnings.  ERR_CASE, also if more flows in than out at the start (see below). */
 int conditions_create(conditions *c, const description *d, space *s, warning_list *w, error *err);
-/* Prescribed values at time t into x [n_dof].  ERR_CASE if the field of an incompressible fluid is prescribed on all of
- * the boundary and what flows in does not flow out, by more than 1e-6 of it. */
+/* Prescribed values at time t into x [n_dof].  ERR_CASE if the field of an incompressible fluid is prescribed on
+ * all of the boundary and what flows in does not flow out, by more than 1e-6 of it. */
 int conditions_apply(const conditions *c, const space *s, double t, double *x, error *err);
 void conditions_destroy(conditions *c);
 

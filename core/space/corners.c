@@ -5,9 +5,9 @@
  *     n_1 . u = n_1 . u_1,   n_2 . u = n_2 . u_2,   ...,
  *
  * and what is left tangentially is that of the later line; so what flows through each boundary is what its own
- * condition says.  (Otherwise the lid of a cavity pumps fluid through the corners of the side walls, and the solution
- * converges with order one only.)  n_k is the direction of int phi n over the facets of boundary k at the node: with it
- * the flux of the finite-element function is exact on curved boundaries, too. */
+ * condition says.  (Otherwise the lid of a cavity pumps fluid through the corners of the side walls, and the
+ * solution converges with order one only.)  n_k is the direction of int phi n over the facets of boundary k at the
+ * node: with it the flux of the finite-element function is exact on curved boundaries, too. */
 #include "space/corners.h"
 
 #include "base/list.h"
@@ -22,8 +22,8 @@
 /* A normal that lies nearer to those before gives no condition of its own. */
 #define INDEPENDENT 0.2
 
-void facet_element(const mesh *m, int64_t facet, const double *xi, const double (*tangent)[3], int orient, double *x,
-                   double *ds)
+void facet_element(const mesh *m, int64_t facet, const double *xi, const double (*tangent)[3], int orient,
+                   double *x, double *ds)
 {
     double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], j[3][3], t[2][3] = {{0}};
 
@@ -169,8 +169,8 @@ static void mark_partial(const description *d, const space *s, uint8_t *const *f
                                               m->type->facet[m->facet[f].local][k]])] = 0;
 }
 
-static int gather(gather_list *l, const description *d, const space *s, uint8_t *const *facet, const uint64_t *lines,
-                  error *err)
+static int gather(gather_list *l, const description *d, const space *s, uint8_t *const *facet,
+                  const uint64_t *lines, error *err)
 {
     const mesh *m = s->mesh;
 
@@ -232,8 +232,8 @@ static int add_corner(corner_list *l, const description *d, const int *rank, int
     return 0;
 }
 
-int corners_find(corner_list *l, const description *d, const space *s, uint8_t *const *facet, const int *rank, int field,
-                 error *err)
+int corners_find(corner_list *l, const description *d, const space *s, uint8_t *const *facet, const int *rank,
+                 int field, error *err)
 {
     arena scratch = {0};
     gather_list g = {0};
@@ -264,17 +264,18 @@ int corners_find(corner_list *l, const description *d, const space *s, uint8_t *
 static void say_conflict(const corner *c, const description *d, const space *s, const corner_side *kept,
                          const corner_side *lost, double is, double wanted, warning_list *w)
 {
-    warning_add(w,
-                "boundary \"%s\" and \"%s\" meet without an edge at %s, and their conditions on %s differ along the "
-                "normal (%.6g and %.6g): the node keeps that of \"%s\"; let one of them fall to the other's value there",
-                d->line[kept->line].name, d->line[lost->line].name,
-                text_point(s->mesh->x + (int64_t)c->node * s->mesh->dim, s->mesh->dim).s, s->field[c->field].name, is,
-                wanted, d->line[kept->line].name);
+    warning_add(
+        w,
+        "boundary \"%s\" and \"%s\" meet without an edge at %s, and their conditions on %s differ along the "
+        "normal (%.6g and %.6g): the node keeps that of \"%s\"; let one of them fall to the other's value there",
+        d->line[kept->line].name, d->line[lost->line].name,
+        text_point(s->mesh->x + (int64_t)c->node * s->mesh->dim, s->mesh->dim).s, s->field[c->field].name, is,
+        wanted, d->line[kept->line].name);
 }
 
 /* Value at one corner: from the last side to the first, each direction that is new is fixed. */
-static int corner_value(const corner *c, const description *d, const space *s, const double *at, double t, double *u,
-                        warning_list *w, error *err)
+static int corner_value(const corner *c, const description *d, const space *s, const double *at, double t,
+                        double *u, warning_list *w, error *err)
 {
     double axis[3][3], part[3], value[VALUE_MAX] = {0};
     int n = 0, who[3] = {0};

@@ -30,11 +30,12 @@ typedef struct corner_list {
     corner *corner;
 } corner_list;
 
-/* Finds the corners of a field.  facet: [n_line][n_facet], see conditions.h; rank [n_line]: a line holds over those of
- * lower rank. */
-int corners_find(corner_list *l, const description *d, const space *s, uint8_t *const *facet, const int *rank, int field,
-                 error *err);
-/* Values at time t into x [n_dof].  w, unless NULL: gets a warning where normal components contradict each other. */
+/* Finds the corners of a field.  facet: [n_line][n_facet], see conditions.h; rank [n_line]: a line holds over those
+ * of lower rank. */
+int corners_find(corner_list *l, const description *d, const space *s, uint8_t *const *facet, const int *rank,
+                 int field, error *err);
+/* Values at time t into x [n_dof].  w, unless NULL: gets a warning where normal components contradict each other.
+ */
 int corners_apply(const corner_list *l, const description *d, const space *s, double t, double *x, warning_list *w,
                   error *err);
 void corners_destroy(corner_list *l);
@@ -42,8 +43,8 @@ void corners_destroy(corner_list *l);
 /* Axis along which a facet's normal lies, or -1. */
 int facet_axis(const mesh *m, int64_t facet);
 /* Place and area element n ds (of the facet's own coordinates, fe_rule_facet) of a point of a facet. */
-void facet_element(const mesh *m, int64_t facet, const double *xi, const double (*tangent)[3], int orient, double *x,
-                   double *ds);
+void facet_element(const mesh *m, int64_t facet, const double *xi, const double (*tangent)[3], int orient,
+                   double *x, double *ds);
 /* Integral of phi_i n over a facet for each of its nodes, and their sum n_all: the area vector.  Facet rules of
  * degree 5. */
 int facet_weights(const mesh *m, int64_t facet, double (*weight)[3], double *all, error *err);

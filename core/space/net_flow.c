@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * An incompressible fluid whose velocity is prescribed all round must let out what it lets in: otherwise no pressure
- * solves its equations.  The fluxes are those of the finite-element function, int u . n by facet rules. */
+ * An incompressible fluid whose velocity is prescribed all round must let out what it lets in: otherwise no
+ * pressure solves its equations.  The fluxes are those of the finite-element function, int u . n by facet rules. */
 #include "space/conditions.h"
 
 #include "base/text.h"
@@ -34,7 +34,8 @@ static int closes(const boundary_line *l, const mesh *m, int64_t facet, int fiel
 
     for (int k = 0; k < m->dim; k++)
         whole &= !l->value[field].free[k];
-    return whole || l->symmetry || l->periodic[0] || (l->has_value[field] && axis >= 0 && !l->value[field].free[axis]);
+    return whole || l->symmetry || l->periodic[0] ||
+           (l->has_value[field] && axis >= 0 && !l->value[field].free[axis]);
 }
 
 int net_flow_create(conditions *c, const description *d, const space *s, error *err)
@@ -117,11 +118,12 @@ static int refuse(const conditions *c, const double *part, double total, double 
     for (int i = 0; i < d->n_line; i++)
         if (part[i] != 0)
             text_add(&list, "%s\"%s\" %.6g", list.n ? ", " : "", d->line[i].name ? d->line[i].name : "?", part[i]);
-    status = error_set(err, ERR_CASE,
-                       "%s: %s is prescribed on all boundaries, but what flows in does not flow out: the net outflow is "
-                       "%.6g at t = %.6g (by boundary: %s). An incompressible fluid needs an outflow: boundary \"...\" "
-                       "{ natural = true }, or conditions that balance",
-                       d->c->path, d->fields.f[c->flow.field].name, total, t, list.s ? list.s : "");
+    status =
+        error_set(err, ERR_CASE,
+                  "%s: %s is prescribed on all boundaries, but what flows in does not flow out: the net outflow is "
+                  "%.6g at t = %.6g (by boundary: %s). An incompressible fluid needs an outflow: boundary \"...\" "
+                  "{ natural = true }, or conditions that balance",
+                  d->c->path, d->fields.f[c->flow.field].name, total, t, list.s ? list.s : "");
     text_free(&list);
     return status;
 }
