@@ -285,6 +285,7 @@ static const char *status_of(int code)
            : code == ERR_CONVERGE ? "not converged"
            : code == ERR_MEMORY   ? "out of memory"
            : code == ERR_IO       ? "input/output error"
+           : code > ERR_SIGNAL    ? "interrupted"
                                   : "failed";
 }
 
@@ -305,6 +306,8 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
         status = problem_cut(p, p->x, err);
     if (!status)
         status = output_open(&r, err);
+    if (!status)
+        status = results_expect(&r, err);
     if (!status)
         status = log_start(&r, err);
     if (!status) {

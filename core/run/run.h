@@ -85,7 +85,9 @@ int norms_of_error(const problem *p, int field, double t, double *l2, double *h1
  * count with their motion. */
 int norms_mean(const problem *p, int f, double *mean, error *err);
 
-/* Calls the case's results(function) and leaves JSON in r->results. */
+/* Before the run: the case's results(function) asks only for what there will be (results_check). */
+int results_expect(run *r, error *err);
+/* After it: calls it and leaves JSON in r->results (results_call). */
 int results_evaluate(run *r, error *err);
 
 #endif
