@@ -12,7 +12,8 @@ enum error_code {
     ERR_PLUGIN = 5,
     ERR_CONVERGE = 6,
     ERR_IO = 7,
-    ERR_MEMORY = 8
+    ERR_MEMORY = 8,
+    ERR_SIGNAL = 128 /* + the number of the signal that stopped the program */
 };
 
 typedef struct error {

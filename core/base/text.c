@@ -35,18 +35,59 @@ void text_add(text *t, const char *fmt, ...)
     t->n += (size_t)n;
 }
 
-void text_json(text *t, const char *s)
+size_t text_utf8(const char *s, size_t n)
 {
+    static const struct {
+        unsigned char mask, lead; /* first byte & mask == lead */
+        unsigned long lowest;     /* shorter forms exist below */
+    } form[] = {{0x80, 0x00, 0}, {0xe0, 0xc0, 0x80}, {0xf0, 0xe0, 0x800}, {0xf8, 0xf0, 0x10000}};
+    const unsigned char *u = (const unsigned char *)s;
+
+    for (size_t k = 0; k < sizeof form / sizeof *form && k < n; k++) {
+        unsigned long code = u[0] & (unsigned char)~form[k].mask;
+
+        if ((u[0] & form[k].mask) != form[k].lead)
+            continue;
+        for (size_t i = 1; i <= k; i++) {
+            if ((u[i] & 0xc0) != 0x80)
+                return 0;
+            code = code << 6 | (u[i] & 0x3f);
+        }
+        return code < form[k].lowest || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff) ? 0 : k + 1;
+    }
+    return 0;
+}
+
+void text_json_bytes(text *t, const char *s, size_t n)
+{
+    size_t plain = 0; /* bytes before s that go as they are */
+
     text_add(t, "\"");
-    for (; *s; s++) {
-        if (*s == '"' || *s == '\\')
-            text_add(t, "\\%c", *s);
+    while (n > 0) {
+        size_t size = text_utf8(s, n);
+        int special = size == 0 || (unsigned char)*s < 0x20 || *s == '"' || *s == '\\';
+
+        if (special) {
+            text_add(t, "%.*s", (int)plain, s - plain);
+            plain = 0;
+        }
+        if (size == 0)
+            text_add(t, "\xef\xbf\xbd");
         else if ((unsigned char)*s < 0x20)
             text_add(t, "\\u%04x", (unsigned)*s);
+        else if (special)
+            text_add(t, "\\%c", *s);
         else
-            text_add(t, "%c", *s);
+            plain += size;
+        s += size ? size : 1;
+        n -= size ? size : 1;
     }
-    text_add(t, "\"");
+    text_add(t, "%.*s\"", (int)plain, s - plain);
+}
+
+void text_json(text *t, const char *s)
+{
+    text_json_bytes(t, s, strlen(s));
 }
 
 void text_number(text *t, double v)
@@ -78,7 +119,7 @@ int text_distance(const char *a, const char *b)
     int n = (int)strlen(a), m = (int)strlen(b);
 
     if (n > LONGEST || m > LONGEST)
-        return LONGEST;
+        return n > m ? n : m;
     for (int i = 0; i <= n; i++)
         d[i][0] = i;
     for (int j = 0; j <= m; j++)
@@ -103,19 +144,26 @@ int text_distance(const char *a, const char *b)
 const char *text_nearest(const char *name, const char *const *candidate, size_t n)
 {
     const char *nearest = NULL;
-    int limit = (int)strlen(name) / 3, best;
+    int length = (int)strlen(name), best = length < 3 ? length : length / 3 + 1; /* less than this is a slip */
 
-    limit = limit < 1 ? 1 : limit;
-    best = limit + 1;
     for (size_t i = 0; i < n; i++) {
         int d = text_distance(name, candidate[i]);
 
-        if (d < best) {
+        if (d < best && strcmp(name, candidate[i]) != 0) {
             best = d;
             nearest = candidate[i];
         }
     }
     return nearest;
+}
+
+hint_text text_hint(const char *near)
+{
+    hint_text h = {""};
+
+    if (near)
+        snprintf(h.s, sizeof h.s, "; did you mean \"%.200s\"?", near);
+    return h;
 }
 
 point_text text_point(const double *x, int dim)

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Loading a case, and collecting what is wrong with it. */
-#include "case/case.h"
-
-#include <lauxlib.h>
+#include "case/sandbox.h"
 
 #include <ctype.h>
 #include <stdarg.h>
@@ -21,14 +19,10 @@ const case_block *case_find(const case_file *c, const char *kind, int k)
 /* Line of `key =` in the source from the block's line on; the block's own if it is not found. */
 static int line_of_key(const case_file *c, const case_block *b, const char *key)
 {
-    const char *s = NULL, *text;
+    const char *s = c->n_source ? c->source[source_find(c, b->file)].text : NULL, *text = s;
     size_t n = key ? strlen(key) : 0;
     int line = 1;
 
-    for (int i = 0; i < c->n_source; i++)
-        if (strcmp(c->source[i].file, b->file) == 0)
-            s = c->source[i].text;
-    text = s;
     for (; s && *s && line < b->line; s++)
         line += *s == '\n';
     for (; s && key && *s && line < b->line + 60; s++) {
@@ -88,36 +82,61 @@ static int parse_sets(case_file *c, const char *const *set, int n_set, error *er
     return 0;
 }
 
-int case_load(case_file *c, const char *path, const char *const *set, int n_set, error *err)
+/* Every --set names a parameter of the case. */
+static void check_sets(case_file *c)
 {
-    static const char *const once[] = {"mesh", "fluid", "time", "output", "initial", "exact", "solve", "results"};
+    const char *name[CASE_MAX_SETS];
+    text t = {0};
 
+    for (int k = 0; k < c->n_param; k++) {
+        name[k] = c->param[k].name;
+        text_add(&t, "%s%s", k ? ", " : "", name[k]);
+    }
+    for (int i = 0; i < c->n_set; i++)
+        if (!c->set[i].used)
+            case_wrong(c, NULL, NULL, "--set %s=%s: the case has no parameter \"%s\"%s\n    its parameters: %s",
+                       c->set[i].name, c->set[i].value, c->set[i].name,
+                       text_hint(text_nearest(c->set[i].name, name, (size_t)c->n_param)).s, t.s ? t.s : "none");
+    text_free(&t);
+}
+
+/* Blocks of some kinds stand once. */
+static void check_once(case_file *c)
+{
+    static const char *const once[] = {"mesh",  "fluid", "time",    "output", "initial",
+                                       "exact", "solve", "results", "offset"};
+
+    for (size_t i = 0; i < sizeof once / sizeof *once; i++) {
+        const case_block *first = case_find(c, once[i], 0), *second = case_find(c, once[i], 1);
+
+        if (!second)
+            continue;
+        if (strcmp(once[i], "offset") == 0 && first->by_prelude != second->by_prelude)
+            case_wrong(
+                c, first->by_prelude ? second : first, NULL,
+                "offset: the case has one already: with gravity in fluid{}, particulate (line %d) adds rho g.x, "
+                "the hydrostatic part of the pressure, to p; leave this offset{} out",
+                (first->by_prelude ? first : second)->line);
+        else
+            case_wrong(c, second, NULL, "%s: a second block of this kind; the first is in line %d", once[i],
+                       first->line);
+    }
+}
+
+int case_load(case_file *c, const char *path, const char *const *set, int n_set, const volatile sig_atomic_t *stop,
+              error *err)
+{
     memset(c, 0, sizeof *c);
+    c->stop = stop;
     c->path = arena_strdup(&c->memory, path);
+    if (!c->path)
+        return error_memory(err, path, 0);
     TRY(parse_sets(c, set, n_set, err));
     TRY(sandbox_open(c, err));
-    TRY(sandbox_run(c, path, err));
-    lua_settop(c->lua, 0);
-    for (int i = 0; i < c->n_set; i++)
-        if (!c->set[i].used) {
-            const char *name[CASE_MAX_SETS], *near;
-            text t = {0};
-
-            for (int k = 0; k < c->n_param; k++) {
-                name[k] = c->param[k].name;
-                text_add(&t, "%s%s", k ? ", " : "", name[k]);
-            }
-            near = text_nearest(c->set[i].name, name, (size_t)c->n_param);
-            case_wrong(c, NULL, NULL, "--set %s=%s: the case has no parameter \"%s\"%s%s%s\n    its parameters: %s",
-                       c->set[i].name, c->set[i].value, c->set[i].name, near ? "; did you mean \"" : "",
-                       near ? near : "", near ? "\"?" : "", t.s ? t.s : "none");
-            text_free(&t);
-        }
-    for (size_t i = 0; i < sizeof once / sizeof *once; i++)
-        if (case_find(c, once[i], 1))
-            case_wrong(c, case_find(c, once[i], 1), NULL,
-                       "%s: a second block of this kind; the first is in line %d", once[i],
-                       case_find(c, once[i], 0)->line);
+    TRY(source_load(c, path, err));
+    TRY(case_call(c, NULL, 0, 0, err));
+    check_sets(c);
+    check_once(c);
     return 0;
 }
 

@@ -14,6 +14,7 @@
 #include "base/value.h"
 
 #include <lua.h>
+#include <signal.h>
 #include <stddef.h>
 
 enum { CASE_MAX_BLOCKS = 256, CASE_MAX_KEYS = 96, CASE_MAX_SETS = 64, CASE_MAX_SOURCES = 16 };
@@ -24,6 +25,7 @@ typedef struct case_block {
     int ref;          /* its table (or function) in the Lua registry; LUA_NOREF if none */
     const char *file;
     int line;
+    int by_prelude; /* a line of the prelude wrote it, for the case's line: particulate, fluid */
 } case_block;
 
 typedef struct case_set {
@@ -36,10 +38,17 @@ typedef struct case_param {
     char value[64], dflt[64];
 } case_param;
 
+/* Memory of Lua that was refused last, bytes; capped: by the limit of a case, not by the system. */
+typedef struct case_refused {
+    size_t held, asked;
+    int capped;
+} case_refused;
+
 typedef struct case_file {
     const char *path, *title;
     lua_State *lua;
-    size_t lua_bytes;
+    size_t lua_bytes, lua_limit; /* held, and allowed now */
+    case_refused refused;
     int n_block, n_set, n_param, n_source, n_error;
     case_block block[CASE_MAX_BLOCKS];
     case_set set[CASE_MAX_SETS];
@@ -48,14 +57,25 @@ typedef struct case_file {
         const char *file, *text;
     } source[CASE_MAX_SOURCES];
     text errors, printed;
-    long budget; /* Lua instructions left, in thousands */
-    int last_line;
+    size_t printed_bytes; /* by print of the case */
+    const char *running;  /* name of the function that is being called; NULL: the case itself */
+    long budget;          /* Lua instructions left, in thousands */
+    int code;             /* of the error that is on its way through Lua; 0: ERR_CASE */
+    char last_file[LUA_IDSIZE];
+    int last_line; /* where Lua was not long ago; 0: unknown */
     unsigned long long random;
+    const volatile sig_atomic_t *stop; /* number of a signal that wants the program to end; NULL: none does */
     arena memory;
 } case_file;
 
-/* Runs the file; set[] are "NAME=VALUE" of --set.  On error the message is complete. */
-int case_load(case_file *c, const char *path, const char *const *set, int n_set, error *err);
+/* Runs the file; set[] are "NAME=VALUE" of --set.  On error the message is complete.  Once *stop (NULL: none) is
+ * the number of a signal, this and every later call into the case's Lua ends with ERR_SIGNAL + *stop. */
+int case_load(case_file *c, const char *path, const char *const *set, int n_set, const volatile sig_atomic_t *stop,
+              error *err);
+/* Calls the function that lies below n_arg arguments on the Lua stack: protected, with limits on its instructions
+ * and on memory.  name: what messages call it (NULL: it is the case itself).  Leaves n_result results; on error
+ * nothing. ERR_CASE with Lua's message, which has the line; ERR_MEMORY with figures; ERR_SIGNAL + n. */
+int case_call(case_file *c, const char *name, int n_arg, int n_result, error *err);
 /* The block of this kind, or NULL; the k-th if several may stand in a case. */
 const case_block *case_find(const case_file *c, const char *kind, int k);
 /* Adds to what is wrong. */
@@ -86,7 +106,7 @@ int reader_choice(reader *r, const char *key, const char *doc, const char *const
 int reader_vector(reader *r, const char *key, const char *doc, int n, double *v);
 /* A number or function (n = 1), a vector of numbers, functions and `free`, or one function. */
 int reader_value(reader *r, const char *key, const char *doc, int n, int dim, value *v);
-/* Strings in a list. */
+/* At most `most` strings in a list; more are wrong. */
 int reader_strings(reader *r, const char *key, const char *doc, int most, const char **v, int *n);
 /* Leaves the value of the key on the Lua stack if it is a table (then 1) -- pop it. */
 int reader_table(reader *r, const char *key, const char *doc);
@@ -99,12 +119,5 @@ void reader_close(reader *r);
 
 /* A Lua function or number on top of the stack as a value; pops it. */
 int case_value(case_file *c, const case_block *b, const char *key, int n, int dim, value *v);
-
-/* --- sandbox (sandbox.c) --- */
-/* A fresh budget of instructions for the next call of a function of the case. */
-void case_allow(case_file *c);
-int sandbox_open(case_file *c, error *err);
-int sandbox_run(case_file *c, const char *path, error *err);
-extern const char *const case_prelude;
 
 #endif

@@ -36,7 +36,14 @@ static int ask(reader *r, const char *key, const char *doc)
 
     for (int i = 0; i < r->n_key; i++)
         known |= strcmp(r->key[i], key) == 0;
-    if (!known && r->n_key < CASE_MAX_KEYS) {
+    if (!known && r->n_key == CASE_MAX_KEYS) {
+        case_wrong(
+            r->c, r->b, NULL,
+            "%s: the terms that are on ask for more than %d keys here, \"%s\" is one too many; switch some off",
+            r->what, CASE_MAX_KEYS, key);
+        return 0;
+    }
+    if (!known) {
         r->key[r->n_key] = key;
         r->doc[r->n_key++] = doc;
     }
@@ -107,12 +114,19 @@ int reader_bool(reader *r, const char *key, const char *doc, int *v)
     return 1;
 }
 
+/* The value on top of the Lua stack is a string without zero bytes. */
+static int is_text(lua_State *l)
+{
+    return lua_type(l, -1) == LUA_TSTRING && strlen(lua_tostring(l, -1)) == lua_rawlen(l, -1);
+}
+
 int reader_string(reader *r, const char *key, const char *doc, const char **v)
 {
     if (!ask(r, key, doc))
         return 0;
-    if (lua_type(r->c->lua, -1) != LUA_TSTRING)
-        return mismatch(r, key, doc, "a string");
+    if (!is_text(r->c->lua))
+        return mismatch(r, key, doc,
+                        lua_type(r->c->lua, -1) == LUA_TSTRING ? "a string without zero bytes" : "a string");
     *v = arena_strdup(&r->c->memory, lua_tostring(r->c->lua, -1));
     lua_pop(r->c->lua, 1);
     return *v ? 1 : -1;
@@ -120,7 +134,7 @@ int reader_string(reader *r, const char *key, const char *doc, const char **v)
 
 int reader_choice(reader *r, const char *key, const char *doc, const char *const *choice, int *v)
 {
-    const char *s, *near;
+    const char *s;
     text t = {0};
     int status = reader_string(r, key, doc, &s), n = 0;
 
@@ -134,9 +148,8 @@ int reader_choice(reader *r, const char *key, const char *doc, const char *const
         }
         text_add(&t, "%s\"%s\"", n ? ", " : "", choice[n]);
     }
-    near = text_nearest(s, choice, (size_t)n);
-    case_wrong(r->c, r->b, key, "%s: \"%s\" (%s): \"%s\" is not possible%s%s%s; expected one of %s", r->what, key,
-               doc, s, near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "", t.s ? t.s : "");
+    case_wrong(r->c, r->b, key, "%s: \"%s\" (%s): \"%s\" is not possible%s; expected one of %s", r->what, key, doc,
+               s, text_hint(text_nearest(s, choice, (size_t)n)).s, t.s ? t.s : "");
     text_free(&t);
     return -1;
 }
@@ -182,22 +195,36 @@ int reader_value(reader *r, const char *key, const char *doc, int n, int dim, va
 int reader_strings(reader *r, const char *key, const char *doc, int most, const char **v, int *n)
 {
     lua_State *l = r->c->lua;
+    lua_Unsigned there;
 
     *n = 0;
     if (!ask(r, key, doc))
         return 0;
     if (!lua_istable(l, -1))
         return mismatch(r, key, doc, "names in braces");
-    for (int i = 0; i < (int)lua_rawlen(l, -1) && i < most; i++) {
-        lua_rawgeti(l, -1, i + 1);
-        if (lua_type(l, -1) != LUA_TSTRING) {
-            int status = mismatch(r, key, doc, "names in quotes");
-
-            lua_pop(l, 1);
-            return status;
-        }
-        v[(*n)++] = arena_strdup(&r->c->memory, lua_tostring(l, -1));
+    there = lua_rawlen(l, -1);
+    if (there > (lua_Unsigned)most) {
+        case_wrong(r->c, r->b, key, "%s: \"%s\" (%s): expected at most %d names, got %llu", r->what, key, doc, most,
+                   there);
         lua_pop(l, 1);
+        return -1;
+    }
+    for (; *n < (int)there; ++*n) {
+        lua_rawgeti(l, -1, *n + 1);
+        if (!is_text(l)) {
+            *n = 0;
+            mismatch(r, key, doc, "names in quotes");
+            lua_pop(l, 1);
+            return -1;
+        }
+        v[*n] = arena_strdup(&r->c->memory, lua_tostring(l, -1));
+        lua_pop(l, 1);
+        if (!v[*n]) {
+            *n = 0;
+            case_wrong(r->c, r->b, key, "%s: \"%s\": out of memory", r->what, key);
+            lua_pop(l, 1);
+            return -1;
+        }
     }
     lua_pop(l, 1);
     return 1;
@@ -265,11 +292,12 @@ void reader_close(reader *r)
     lua_rawgeti(l, LUA_REGISTRYINDEX, r->b->ref);
     lua_pushnil(l);
     while (lua_next(l, -2)) {
-        const char *key = lua_type(l, -2) == LUA_TSTRING ? lua_tostring(l, -2) : NULL, *near, *doc = "";
+        const char *key, *near, *doc = "";
         int known = 0;
 
         lua_pop(l, 1);
-        for (int i = 0; key && i < r->n_key; i++)
+        key = lua_type(l, -1) == LUA_TSTRING ? lua_tostring(l, -1) : NULL;
+        for (int i = 0; key && is_text(l) && i < r->n_key; i++)
             known |= strcmp(key, r->key[i]) == 0;
         if (known)
             continue;

@@ -18,46 +18,38 @@ typedef struct lua_value {
     double constant[VALUE_MAX];
 } lua_value;
 
-static int wrong_result(const lua_value *v, const double *x, double t, const char *why, error *err)
+/* Puts the function and the point before what went wrong. */
+static int say_where(const lua_value *v, const double *x, double t, error *err)
 {
-    return error_set(err, ERR_CASE, "%s:%d: function \"%s\" at %s, t = %.6g: %s", v->b->file, v->b->line, v->key,
-                     text_point(x, v->dim == 3 ? 3 : 2).s, t, why);
+    return error_prefix(err, "%s:%d: function \"%s\" at %s, t = %.6g: ", v->b->file, v->b->line, v->key,
+                        text_point(x, v->dim == 3 ? 3 : 2).s, t);
 }
 
 /* Calls function `ref`; n results (or a table of n) to out. */
 static int call(const lua_value *v, int ref, int n, const double *x, double t, double *out, error *err)
 {
     lua_State *l = v->c->lua;
-    int base = lua_gettop(l), status = 0;
+    int base = lua_gettop(l), status, in_table;
 
-    case_allow(v->c);
     lua_rawgeti(l, LUA_REGISTRYINDEX, ref);
     for (int k = 0; k < v->dim; k++)
         lua_pushnumber(l, x[k]);
     lua_pushnumber(l, t);
-    if (lua_pcall(l, v->dim + 1, n, 0) != LUA_OK) {
-        status = wrong_result(v, x, t, lua_tostring(l, -1) ? lua_tostring(l, -1) : "error", err);
-    } else {
-        int in_table = lua_istable(l, base + 1);
-
-        for (int k = 0; k < n && !status; k++) {
-            char why[100];
-
-            if (in_table)
-                lua_rawgeti(l, base + 1, k + 1);
-            else
-                lua_pushvalue(l, base + 1 + k);
-            out[k] = lua_tonumber(l, -1);
-            if (lua_type(l, -1) != LUA_TNUMBER || !isfinite(out[k])) {
-                snprintf(why, sizeof why, "it must return %d number%s, result %d is %s", n, n > 1 ? "s" : "", k + 1,
-                         lua_type(l, -1) == LUA_TNUMBER ? "not finite" : luaL_typename(l, -1));
-                status = wrong_result(v, x, t, why, err);
-            }
-            lua_pop(l, 1);
-        }
+    status = case_call(v->c, v->key, v->dim + 1, n, err);
+    in_table = !status && lua_istable(l, base + 1);
+    for (int k = 0; k < n && !status; k++) {
+        if (in_table)
+            lua_rawgeti(l, base + 1, k + 1);
+        else
+            lua_pushvalue(l, base + 1 + k);
+        out[k] = lua_tonumber(l, -1);
+        if (lua_type(l, -1) != LUA_TNUMBER || !isfinite(out[k]))
+            status = error_set(err, ERR_CASE, "it must return %d number%s, result %d is %s", n, n > 1 ? "s" : "",
+                               k + 1, lua_type(l, -1) == LUA_TNUMBER ? "not finite" : luaL_typename(l, -1));
+        lua_pop(l, 1);
     }
     lua_settop(l, base);
-    return status;
+    return status ? say_where(v, x, t, err) : 0;
 }
 
 static int evaluate(const void *ctx, const double *x, double t, double *out, error *err)
@@ -128,11 +120,14 @@ int case_value(case_file *c, const case_block *b, const char *key, int n, int di
     lua_State *l = c->lua;
     lua_value *v = arena_alloc(&c->memory, 1, sizeof *v);
 
-    if (!v) {
+    char *kept = arena_strdup(&c->memory, key);
+
+    if (!v || !kept) {
+        case_wrong(c, b, key, "%s: \"%s\": out of memory", b->kind, key);
         lua_pop(l, 1);
         return -1;
     }
-    *v = (lua_value){.c = c, .b = b, .key = arena_strdup(&c->memory, key), .n = n, .dim = dim};
+    *v = (lua_value){.c = c, .b = b, .key = kept, .n = n, .dim = dim};
     *out = (value){.n = n, .ctx = v};
     if (lua_isfunction(l, -1)) {
         v->whole = 1;

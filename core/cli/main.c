@@ -145,7 +145,7 @@ int cli_open(const cli *o, cli_case *k, error *err)
 
     memset(k, 0, sizeof *k);
     cli_watchdog(CASE_SECONDS, o->operand[0]);
-    status = case_load(&k->c, o->operand[0], o->set, o->n_set, err);
+    status = case_load(&k->c, o->operand[0], o->set, o->n_set, &cli_stop, err);
     cli_watchdog(0, "");
     if (k->c.printed.s && !o->quiet)
         fputs(k->c.printed.s, stderr);

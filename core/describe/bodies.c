@@ -19,7 +19,9 @@ static int read_shape(description *d, const case_block *b, shape *s, error *err)
 {
     lua_State *l = d->c->lua;
     case_block inner = {.kind = "shape", .ref = LUA_NOREF, .file = b->file, .line = b->line};
+    const char *name = "", *other = "";
     double half[3] = {0};
+    int dim = d->dim;
     reader r;
 
     memset(s, 0, sizeof *s);
@@ -27,6 +29,14 @@ static int read_shape(description *d, const case_block *b, shape *s, error *err)
     inner.ref = luaL_ref(l, LUA_REGISTRYINDEX);
     reader_open(&r, d->c, arena_alloc(&d->memory, 1, sizeof inner), "shape");
     memcpy((void *)r.b, &inner, sizeof inner);
+    reader_string(&r, "name", "of the function that made the shape", &name);
+    reader_string(&r, "other", "what takes its place in the other dimension", &other);
+    reader_integer(&r, "dim", "dimension that the shape is for", 2, 3, &dim);
+    if (dim != d->dim) {
+        case_wrong(d->c, b, "shape", "shape: %s{} is a shape in %dD, the mesh is %dD; use %s", name, dim, d->dim,
+                   other);
+        return 0;
+    }
     reader_required(
         &r, "kind",
         reader_choice(&r, "kind", "shape; use disk{}, sphere{}, ellipse{}, box{} ...", shape_kinds, &s->kind));
@@ -44,7 +54,7 @@ static int read_shape(description *d, const case_block *b, shape *s, error *err)
             reader_value(&r, "distance", "signed distance, function of x, y[, z]", 1, d->dim, &s->distance));
     if (s->kind == SHAPE_CYLINDER && d->dim == 2)
         case_wrong(d->c, b, "shape", "shape: a cylinder needs three dimensions; in 2D use disk{} or rectangle{}");
-    if (s->kind == SHAPE_SUPERELLIPSOID && !(s->exponent[0] >= 1))
+    if (s->kind == SHAPE_SUPERELLIPSOID && !(s->exponent[0] >= 1 && s->exponent[1] >= 1))
         case_wrong(d->c, b, "shape", "shape: exponents of a superellipsoid must be at least 1");
     reader_close(&r);
     return d->c->n_error ? 0 : shape_measure(s, err);

@@ -4,6 +4,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -173,9 +174,6 @@ int file_clean_run(const char *dir, error *err)
 
 int table_create(table *t, const char *path, const char *const *column, int n, error *err)
 {
-    text line = {0};
-    int status;
-
     *t = (table){.fd = -1, .n_column = n};
     t->path = strdup(path);
     t->column = calloc((size_t)n, sizeof *t->column);
@@ -185,15 +183,26 @@ int table_create(table *t, const char *path, const char *const *column, int n, e
         t->column[i] = strdup(column[i]);
         if (!t->column[i])
             return error_memory(err, path, 0);
-        text_add(&line, "%s%s", i ? "," : "", column[i]);
     }
+    return 0;
+}
+
+int table_open(table *t, error *err)
+{
+    text line = {0};
+    int status;
+
+    if (t->n_column == 0)
+        return 0;
+    for (int i = 0; i < t->n_column; i++)
+        text_add(&line, "%s%s", i ? "," : "", t->column[i]);
     text_add(&line, "\n");
-    status = line.s ? file_write(path, line.s, line.n, err) : error_memory(err, path, 0);
+    status = line.failed ? error_memory(err, t->path, 0) : file_write(t->path, line.s, line.n, err);
     text_free(&line);
     if (status)
         return status;
-    t->fd = open(path, O_WRONLY | O_APPEND);
-    return t->fd < 0 ? failed(path, "open", errno, err) : 0;
+    t->fd = open(t->path, O_WRONLY | O_APPEND);
+    return t->fd < 0 ? failed(t->path, "open", errno, err) : 0;
 }
 
 int table_add(table *t, const double *row, error *err)
@@ -213,7 +222,8 @@ int table_add(table *t, const double *row, error *err)
     memcpy(t->row + t->n_row++ * t->n_column, row, (size_t)t->n_column * sizeof *row);
     for (int i = 0; i < t->n_column; i++) {
         text_add(&line, "%s", i ? "," : "");
-        text_number(&line, row[i]);
+        if (isfinite(row[i])) /* else an empty cell */
+            text_number(&line, row[i]);
     }
     text_add(&line, "\n");
     status = line.s ? file_append(t->fd, t->path, line.s, line.n, err) : error_memory(err, t->path, 0);

@@ -29,7 +29,9 @@ typedef struct table {
     double *row; /* [n_row][n_column] */
 } table;
 
+/* A table of these columns, in memory; table_open() makes its file. */
 int table_create(table *t, const char *path, const char *const *column, int n, error *err);
+int table_open(table *t, error *err);
 int table_add(table *t, const double *row, error *err);
 void table_destroy(table *t);
 

@@ -54,18 +54,23 @@ int output_take(run *r, double t, error *err)
     return 0;
 }
 
-int output_open(run *r, error *err)
+/* units.json: the columns' and the fields'. */
+static int write_units(const run *r, text *units, error *err)
 {
     char path[4600];
-    text units = {0};
-    int status;
 
-    ARENA_NEW(&r->memory, r->offset, r->p->space.n_dof, err);
-    ARENA_NEW(&r->memory, r->shown, r->p->space.n_dof, err);
-    TRY(make_offset(r, r->p->description.time.start, err));
-    TRY(inside_open(r, err));
-    TRY(lines_locate(r, err));
-    TRY(tables_locate(r, err)); /* before anything of an earlier run goes */
+    for (int f = 0; f < r->p->space.n_field; f++)
+        text_add(units, "%s\n  \"%s\": \"%s\"", units->n > 1 ? "," : "", r->p->space.field[f].name,
+                 r->p->space.field[f].unit);
+    text_add(units, "\n}\n");
+    snprintf(path, sizeof path, "%s/units.json", r->dir);
+    return units->failed ? error_memory(err, path, 0) : file_write(path, units->s, units->n, err);
+}
+
+static int open_files(run *r, text *units, error *err)
+{
+    char path[4600];
+
     TRY(file_make_dir(r->dir, err));
     TRY(file_clean_run(r->dir, err));
     TRY(output_case(r, err));
@@ -74,17 +79,32 @@ int output_open(run *r, error *err)
     r->log_fd = open(path, O_WRONLY | O_APPEND);
     if (r->log_fd < 0)
         return error_set(err, ERR_IO, "%s: cannot be opened", path);
+    TRY(table_open(&r->forces, err));
+    TRY(table_open(&r->probes, err));
+    TRY(table_open(&r->particles, err));
+    return write_units(r, units, err);
+}
+
+int output_open(run *r, error *err)
+{
+    text units = {0};
+    int status;
+
+    ARENA_NEW(&r->memory, r->offset, r->p->space.n_dof, err);
+    ARENA_NEW(&r->memory, r->shown, r->p->space.n_dof, err);
+    TRY(make_offset(r, r->p->description.time.start, err));
+    TRY(inside_open(r, err));
+    TRY(lines_locate(r, err));
+    TRY(tables_locate(r, err));
     text_add(&units, "{");
-    status = tables_open(r, &units, err);
+    status = tables_plan(r, &units, err);
     if (!status)
-        status = particles_open(r, err);
-    for (int f = 0; f < r->p->space.n_field; f++)
-        text_add(&units, "%s\n  \"%s\": \"%s\"", units.n > 1 ? "," : "", r->p->space.field[f].name,
-                 r->p->space.field[f].unit);
-    text_add(&units, "\n}\n");
-    snprintf(path, sizeof path, "%s/units.json", r->dir);
+        status = particles_plan(r, err);
     if (!status)
-        status = units.failed ? error_memory(err, path, 0) : file_write(path, units.s, units.n, err);
+        status =
+            results_expect(r, err); /* everything is known to be right before anything of an earlier run goes */
+    if (!status)
+        status = open_files(r, &units, err);
     text_free(&units);
     return status;
 }

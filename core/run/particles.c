@@ -20,7 +20,7 @@ static const char *const columns_3d[] = {
     "tx", "ty", "tz", "contact_x", "contact_y", "contact_z", "active_nodes"};
 enum { COLUMNS_2D = 14, COLUMNS_3D = 25 };
 
-int particles_open(run *r, error *err)
+int particles_plan(run *r, error *err)
 {
     char path[4600];
 

@@ -1,203 +1,221 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * results(function(r) ... return { cd = ... } end) of a case: derived numbers for the summary.
- *
- *     r.t                    times of the rows of forces.csv and probes.csv
- *     r.series["wall.fx"]    a column of those, as a list;  r.last["wall.fx"] its last value
- *     r.last["p0.fx"]        columns of particles.csv, by number of the body
- *     r.mean.u[1]            mean of a field's component over the domain
- *     r.errors.u             { l2, h1, l2_exact } of fields with an exact solution             */
-#include "run/run.h"
+ * The function in results(...) of a case: its argument as tables of Lua, and the call.  All that touches Lua runs
+ * within one protected call. */
+#include "run/results.h"
 
 #include <lauxlib.h>
-#include <lua.h>
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+enum { MOST_LISTED = 100 };
 
-static void push_table(lua_State *l, const table *t, int series, int last)
+static const char asked_wrongly = 'a'; /* its address: key in Lua's registry, true after a name that is not there */
+
+/* --- the argument --- */
+
+/* A name that is not there: an error in the case's line that lists those that are.  Upvalue: how it begins. */
+static int no_such_name(lua_State *l)
 {
-    for (int c = 1; c < t->n_column; c++) {
-        lua_createtable(l, (int)t->n_row, 0);
-        for (long i = 0; i < t->n_row; i++) {
-            lua_pushnumber(l, t->row[i * t->n_column + c]);
-            lua_rawseti(l, -2, (int)i + 1);
-        }
-        lua_setfield(l, series, t->column[c]);
-        if (t->n_row) {
-            lua_pushnumber(l, t->row[(t->n_row - 1) * t->n_column + c]);
-            lua_setfield(l, last, t->column[c]);
-        }
+    const char *begin = lua_tostring(l, lua_upvalueindex(1)), *wanted = luaL_tolstring(l, 2, NULL), **name;
+    luaL_Buffer list;
+    hint_text hint;
+    size_t n;
+
+    lua_pushboolean(l, 1);
+    lua_rawsetp(l, LUA_REGISTRYINDEX, &asked_wrongly);
+    name = results_names(l, 1, &n);
+    hint = text_hint(text_nearest(wanted, name, n));
+    luaL_buffinit(l, &list);
+    for (size_t i = 0; i < n && i < MOST_LISTED; i++) {
+        luaL_addstring(&list, i ? ", " : "");
+        luaL_addstring(&list, name[i]);
     }
+    if (n > MOST_LISTED)
+        luaL_addstring(&list, ", ...");
+    luaL_pushresult(&list);
+    return luaL_error(l, "results: %s \"%s\"%s there are: %s", begin, wanted, *hint.s ? hint.s : ";",
+                      n ? lua_tostring(l, -1) : "none");
 }
 
-/* Columns of particles.csv as p<id>.<name>: "p0.fx". */
-static void push_particles(lua_State *l, const table *t, int series, int last)
+/* Lets the table on top complain about names that it has not. */
+static void guard(lua_State *l, const char *begin)
 {
-    int n = 0;
-
-    while (n < t->n_row && (int)t->row[n * t->n_column + 1] == n)
-        n++;
-    for (int id = 0; id < n; id++)
-        for (int c = 2; c < t->n_column; c++) {
-            char name[120];
-
-            snprintf(name, sizeof name, "p%d.%.100s", id, t->column[c]);
-            lua_newtable(l);
-            for (long i = id, k = 1; i < t->n_row; i += n, k++) {
-                lua_pushnumber(l, t->row[i * t->n_column + c]);
-                lua_rawseti(l, -2, k);
-            }
-            lua_setfield(l, series, name);
-            lua_pushnumber(l, t->row[(t->n_row - n + id) * t->n_column + c]);
-            lua_setfield(l, last, name);
-        }
-}
-
-/* A column that is not there: an error that lists those that are. */
-static int no_column(lua_State *l)
-{
-    text t = {0};
-
-    lua_pushnil(l);
-    while (lua_next(l, 1)) {
-        lua_pop(l, 1);
-        text_add(&t, "%s%s", t.n ? ", " : "", lua_tostring(l, -1));
-    }
-    lua_pushfstring(l, "results: there is no column \"%s\"; there are: %s", luaL_tolstring(l, 2, NULL),
-                    t.s ? t.s : "none");
-    text_free(&t);
-    luaL_where(l, 1);
-    lua_insert(l, -2);
-    lua_concat(l, 2);
-    return lua_error(l);
-}
-
-static void guard_columns(lua_State *l)
-{
-    lua_newtable(l);
-    lua_pushcfunction(l, no_column);
+    lua_createtable(l, 0, 1);
+    lua_pushstring(l, begin);
+    lua_pushcclosure(l, no_such_name, 1);
     lua_setfield(l, -2, "__index");
     lua_setmetatable(l, -2);
 }
 
-static void push_errors(lua_State *l, const run_result *q)
+static void push_list(lua_State *l, const results_column *column)
 {
-    lua_newtable(l);
-    for (int i = 0; i < q->n_error; i++) {
-        lua_newtable(l);
-        lua_pushnumber(l, q->error_norm[i].l2);
-        lua_setfield(l, -2, "l2");
-        lua_pushnumber(l, q->error_norm[i].h1);
-        lua_setfield(l, -2, "h1");
-        lua_pushnumber(l, q->error_norm[i].l2_exact);
-        lua_setfield(l, -2, "l2_exact");
-        lua_setfield(l, -2, q->error_norm[i].name);
+    lua_createtable(l, (int)column->n, 0);
+    for (long i = 0; i < column->n; i++) {
+        lua_pushnumber(l, column->first[i * column->stride]);
+        lua_rawseti(l, -2, i + 1);
     }
 }
 
-/* Means of the fields on the mesh over the whole domain, as lists of components. */
-static void push_means(lua_State *l, const run *r)
+static void push_columns(lua_State *l, const results_input *in)
 {
-    const problem *p = r->p;
-    error err;
+    lua_createtable(l, 0, in->n_column); /* series */
+    lua_createtable(l, 0, in->n_column); /* last   */
+    for (int k = 0; k < in->n_column; k++) {
+        const results_column *column = &in->column[k];
 
-    lua_newtable(l);
-    for (int f = 0; f < p->space.n_field; f++) {
-        double mean[VALUE_MAX];
-
-        if (p->space.field[f].support != PF_ON_MESH)
-            continue;
-        if (norms_mean(r, f, mean, &err))
-            luaL_error(l, "%s", err.text);
-        lua_newtable(l);
-        for (int c = 0; c < p->space.field[f].n_comp; c++) {
-            lua_pushnumber(l, mean[c]);
-            lua_rawseti(l, -2, c + 1);
+        push_list(l, column);
+        lua_setfield(l, -3, column->name);
+        if (column->n) {
+            lua_pushnumber(l, column->first[(column->n - 1) * column->stride]);
+            lua_setfield(l, -2, column->name);
         }
-        lua_setfield(l, -2, p->space.field[f].name);
     }
-}
-
-static void push_argument(lua_State *l, const run *r)
-{
-    const table *any = r->forces.n_column ? &r->forces : r->probes.n_column ? &r->probes : &r->particles;
-    long every = any == &r->particles && r->p->bodies.n ? r->p->bodies.n : 1;
-
-    lua_newtable(l);
-    lua_newtable(l);
-    for (long i = 0; i < any->n_row / every; i++) {
-        lua_pushnumber(l, any->row[i * every * any->n_column]);
-        lua_rawseti(l, -2, (int)i + 1);
-    }
-    lua_setfield(l, -2, "t");
-    lua_newtable(l);
-    lua_newtable(l);
-    push_table(l, &r->forces, lua_gettop(l) - 1, lua_gettop(l));
-    push_table(l, &r->probes, lua_gettop(l) - 1, lua_gettop(l));
-    push_particles(l, &r->particles, lua_gettop(l) - 1, lua_gettop(l));
-    guard_columns(l);
+    guard(l, "there is no column");
     lua_setfield(l, -3, "last");
-    guard_columns(l);
+    guard(l, "there is no column");
     lua_setfield(l, -2, "series");
-    push_means(l, r);
+}
+
+static void push_means(lua_State *l, const results_input *in)
+{
+    lua_newtable(l);
+    for (int k = 0; k < in->n_mean; k++) {
+        lua_newtable(l);
+        for (int i = 0; i < in->mean[k].n_comp; i++) {
+            lua_pushnumber(l, in->mean[k].mean[i]);
+            lua_rawseti(l, -2, i + 1);
+        }
+        lua_setfield(l, -2, in->mean[k].name);
+    }
+    guard(l, "r.mean has no field");
+}
+
+static void push_norms(lua_State *l, const results_input *in)
+{
+    lua_newtable(l);
+    for (int k = 0; k < in->n_norm; k++) {
+        lua_newtable(l);
+        lua_pushnumber(l, in->norm[k].l2);
+        lua_setfield(l, -2, "l2");
+        lua_pushnumber(l, in->norm[k].h1);
+        lua_setfield(l, -2, "h1");
+        lua_pushnumber(l, in->norm[k].l2_exact);
+        lua_setfield(l, -2, "l2_exact");
+        guard(l, "r.errors has no norm");
+        lua_setfield(l, -2, in->norm[k].name);
+    }
+    guard(l, "r.errors has no field with an exact solution called");
+}
+
+static void push_input(lua_State *l, const results_input *in)
+{
+    lua_newtable(l);
+    push_list(l, &in->t);
+    lua_setfield(l, -2, "t");
+    push_columns(l, in);
+    push_means(l, in);
     lua_setfield(l, -2, "mean");
-    push_errors(l, r->result);
+    push_norms(l, in);
     lua_setfield(l, -2, "errors");
-    lua_pushnumber(l, r->p->description.time.step);
+    lua_pushnumber(l, in->dt);
     lua_setfield(l, -2, "dt");
+    guard(l, "r has no part called");
 }
 
-/* Protected: all of it allocates. */
-static int push_and_call(lua_State *l)
-{
-    const run *r = lua_touserdata(l, 1);
+/* --- the call --- */
 
-    lua_rawgeti(l, LUA_REGISTRYINDEX, case_find(r->p->description.c, "results", 0)->ref);
-    push_argument(l, r);
+typedef struct call {
+    case_file *c;
+    const results_input *in;
+    text *json; /* NULL: what the function returns does not matter */
+} call;
+
+static int call_function(lua_State *l)
+{
+    const call *k = lua_touserdata(l, 1);
+
+    lua_pushboolean(l, 0);
+    lua_rawsetp(l, LUA_REGISTRYINDEX, &asked_wrongly);
+    lua_rawgeti(l, LUA_REGISTRYINDEX, case_find(k->c, "results", 0)->ref);
+    push_input(l, k->in);
     lua_call(l, 1, 1);
-    return 1;
-}
-
-static int by_key(const void *a, const void *b)
-{
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
-}
-
-int results_evaluate(run *r, error *err)
-{
-    const case_block *b = case_find(r->p->description.c, "results", 0);
-    lua_State *l = r->p->description.c->lua;
-    const char *key[256];
-    int n = 0;
-
-    if (!b)
-        return 0;
-    lua_settop(l, 0);
-    lua_pushcfunction(l, push_and_call);
-    lua_pushlightuserdata(l, r);
-    case_allow(r->p->description.c);
-    if (lua_pcall(l, 1, 1, 0) != LUA_OK)
-        return error_set(err, ERR_CASE, "%s", lua_tostring(l, -1) ? lua_tostring(l, -1) : "results: error");
-    if (!lua_istable(l, -1))
-        return error_set(err, ERR_CASE, "%s:%d: results: the function must return a table of numbers, got %s",
-                         b->file, b->line, luaL_typename(l, -1));
-    lua_pushnil(l);
-    while (lua_next(l, 1) && n < 256) {
-        if (lua_type(l, -2) == LUA_TSTRING && lua_type(l, -1) == LUA_TNUMBER)
-            key[n++] = lua_tostring(l, -2);
-        lua_pop(l, 1);
-    }
-    qsort(key, (size_t)n, sizeof *key, by_key);
-    for (int i = 0; i < n; i++) {
-        lua_getfield(l, 1, key[i]);
-        text_add(&r->results, "%s", i ? ", " : "");
-        text_json(&r->results, key[i]);
-        text_add(&r->results, ": ");
-        text_number(&r->results, lua_tonumber(l, -1));
-        lua_pop(l, 1);
-    }
-    lua_settop(l, 0);
+    if (k->json)
+        results_put(l, k->c, k->json);
     return 0;
+}
+
+static int call_protected(case_file *c, const results_input *in, text *json, error *err)
+{
+    call k = {c, in, json};
+
+    lua_pushcfunction(c->lua, call_function);
+    lua_pushlightuserdata(c->lua, &k);
+    return case_call(c, "results", 1, 0, err);
+}
+
+int results_call(case_file *c, const results_input *in, text *json, error *err)
+{
+    size_t before = json->n;
+    int status;
+
+    if (!case_find(c, "results", 0))
+        return 0;
+    status = call_protected(c, in, json, err);
+    if (status && json->s) {
+        json->n = before;
+        json->s[before] = 0;
+    }
+    return status;
+}
+
+/* The call with ones; what of it stays is undone. */
+static int call_with_ones(case_file *c, const results_input *ones, error *err)
+{
+    unsigned long long random = c->random;
+    size_t printed = c->printed.n, bytes = c->printed_bytes;
+    error wrong_here;
+    int status = call_protected(c, ones, NULL, &wrong_here), named;
+
+    c->random = random;
+    c->printed_bytes = bytes;
+    c->printed.n = printed;
+    if (c->printed.s)
+        c->printed.s[printed] = 0;
+    lua_rawgetp(c->lua, LUA_REGISTRYINDEX, &asked_wrongly);
+    named = lua_toboolean(c->lua, -1);
+    lua_pop(c->lua, 1);
+    lua_gc(c->lua, LUA_GCCOLLECT);
+    if (status > ERR_SIGNAL || (status && named))
+        return error_set(err, status, "%s", wrong_here.text);
+    return 0;
+}
+
+int results_check(case_file *c, const results_input *in, error *err)
+{
+    static const double one[] = {1, 1, 1};
+    const results_column ones = {.first = one, .stride = 1, .n = sizeof one / sizeof *one};
+    results_input dry = *in;
+    arena memory = {0};
+    int status = 0;
+
+    if (!case_find(c, "results", 0))
+        return 0;
+    dry.t = ones;
+    dry.dt = 1;
+    dry.column = arena_alloc(&memory, (size_t)in->n_column + 1, sizeof *dry.column);
+    dry.mean = arena_alloc(&memory, (size_t)in->n_mean + 1, sizeof *dry.mean);
+    dry.norm = arena_alloc(&memory, (size_t)in->n_norm + 1, sizeof *dry.norm);
+    if (!dry.column || !dry.mean || !dry.norm)
+        status = error_memory(err, "results", 0);
+    for (int k = 0; !status && k < in->n_column; k++) {
+        dry.column[k] = ones;
+        dry.column[k].name = in->column[k].name;
+    }
+    for (int k = 0; !status && k < in->n_mean; k++)
+        dry.mean[k] = (results_mean){.name = in->mean[k].name, .n_comp = in->mean[k].n_comp, .mean = {1, 1, 1}};
+    for (int k = 0; !status && k < in->n_norm; k++)
+        dry.norm[k] = (results_norm){.name = in->norm[k].name, .l2 = 1, .h1 = 1, .l2_exact = 1};
+    if (!status)
+        status = call_with_ones(c, &dry, err);
+    arena_free(&memory);
+    return status;
 }

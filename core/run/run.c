@@ -303,6 +303,7 @@ static const char *status_of(int code)
            : code == ERR_CONVERGE ? "not converged"
            : code == ERR_MEMORY   ? "out of memory"
            : code == ERR_IO       ? "input/output error"
+           : code > ERR_SIGNAL    ? "interrupted"
                                   : "failed";
 }
 

@@ -88,9 +88,9 @@ int output_case(const run *r, error *err); /* case.json */
 /* Columns of a field in tables: u, v, w for the velocity; name, or name_x, for others.  Their number. */
 int output_components(const field_spec *f, const char *prefix, char (*name)[96]);
 int output_has_columns(const field_spec *f);
-int tables_locate(run *r, error *err); /* ERR_CASE if a probe lies outside the mesh */
-int tables_open(run *r, text *units, error *err);
-int tables_add(run *r, double t, error *err); /* forces and probes, every step */
+int tables_locate(run *r, error *err);            /* ERR_CASE if a probe lies outside the mesh */
+int tables_plan(run *r, text *units, error *err); /* columns and their units; no files yet */
+int tables_add(run *r, double t, error *err);     /* forces and probes, every step */
 int lines_locate(run *r, error *err);
 int lines_write(run *r, double t, error *err);
 
@@ -103,7 +103,7 @@ void inside_value(const run *r, const body_place *p, int field, const double *x,
 /* r->body_of_node; the motion of bodies at the nodes that they hold into shown [n_dof]. */
 void inside_nodes(run *r, double *shown);
 
-int particles_open(run *r, error *err);
+int particles_plan(run *r, error *err);
 double particles_energy(const run *r); /* kinetic, J */
 /* |force on the fluid + force on the bodies| by the terms that couple them, over the sum of forces on bodies. */
 double particles_balance(const run *r);
@@ -118,7 +118,9 @@ int norms_of_error(const run *r, int field, double t, double *l2, double *h1, do
  * count with their motion. */
 int norms_mean(const run *r, int f, double *mean, error *err);
 
-/* Calls the case's results(function) and leaves JSON in r->results. */
+/* Before the run: the case's results(function) asks only for what there will be (results_check). */
+int results_expect(run *r, error *err);
+/* After it: calls it and leaves JSON in r->results (results_call). */
 int results_evaluate(run *r, error *err);
 
 #endif

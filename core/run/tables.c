@@ -50,7 +50,7 @@ static char (*more(columns *c, int n, const char *unit))[96]
     return c->name + c->n - n;
 }
 
-static int open_table(run *r, table *t, const char *file, columns *c, text *units, error *err)
+static int plan_table(run *r, table *t, const char *file, columns *c, text *units, error *err)
 {
     char path[4600];
     const char **name = calloc((size_t)c->n, sizeof *name);
@@ -103,7 +103,7 @@ static int force_columns(const problem *p, const char *boundary, columns *c)
     return c->name != NULL;
 }
 
-int tables_open(run *r, text *units, error *err)
+int tables_plan(run *r, text *units, error *err)
 {
     problem *p = r->p;
     const output_spec *o = &p->description.output;
@@ -118,7 +118,7 @@ int tables_open(run *r, text *units, error *err)
         for (int i = 0; i < o->n_force; i++)
             if (!force_columns(p, o->force[i], &c))
                 return error_memory(err, "forces.csv", 0);
-        TRY(open_table(r, &r->forces, "forces.csv", &c, units, err));
+        TRY(plan_table(r, &r->forces, "forces.csv", &c, units, err));
     }
     if (o->n_probe) {
         name = more(&c, 1, "s");
@@ -144,7 +144,7 @@ int tables_open(run *r, text *units, error *err)
                 snprintf(*name, sizeof *name, "%sbody", prefix);
             }
         }
-        TRY(open_table(r, &r->probes, "probes.csv", &c, units, err));
+        TRY(plan_table(r, &r->probes, "probes.csv", &c, units, err));
     }
     return 0;
 }

@@ -18,7 +18,7 @@ opened *open_case(const char *path, const char *const *sets, int n)
     opened *k = calloc(1, sizeof *k);
 
     assert_non_null(k);
-    if (case_load(&k->c, path, sets, n, &k->err) || registry_create(&k->r, NULL, 0, &k->err) ||
+    if (case_load(&k->c, path, sets, n, NULL, &k->err) || registry_create(&k->r, NULL, 0, &k->err) ||
         problem_create(&k->p, &k->c, &k->r, THREADS, &k->err))
         fail_msg("%s %s: %s", path, n ? sets[0] : "", k->err.text);
     return k;

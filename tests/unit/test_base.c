@@ -23,7 +23,63 @@ static void nearest_name_is_found_for_slips_only(void **state)
     assert_string_equal(text_nearest("viscosty", names, 3), "viscosity");
     assert_string_equal(text_nearest("desnity", names, 3), "density");
     assert_null(text_nearest("temperature", names, 3));
+    assert_null(text_nearest("w", (const char *const[]){"p", "u"}, 2)); /* nothing of it would be left */
     assert_int_equal(text_distance("ab", "ba"), 1);
+}
+
+static void a_name_is_never_taken_for_a_slip_for_itself(void **state)
+{
+    const char *const names[] = {"theta", "Theta", "beta"};
+
+    (void)state;
+    assert_string_equal(text_nearest("theta", names, 3), "Theta");
+    assert_null(text_nearest("theta", names, 1));
+}
+
+/* Names beyond what text_distance compares are near nothing. */
+static void a_name_of_300_letters_is_near_nothing(void **state)
+{
+    const char *const names[] = {"density"};
+    char name[301];
+
+    (void)state;
+    memset(name, 'x', 300);
+    name[300] = 0;
+    assert_null(text_nearest(name, names, 1));
+}
+
+static void a_hint_is_empty_or_ends_a_message(void **state)
+{
+    char name[400];
+
+    (void)state;
+    assert_string_equal(text_hint("density").s, "; did you mean \"density\"?");
+    assert_string_equal(text_hint(NULL).s, "");
+    memset(name, 'x', sizeof name - 1);
+    name[sizeof name - 1] = 0;
+    assert_non_null(strstr(text_hint(name).s, "xxx\"?"));
+}
+
+static void assert_json(const char *bytes, size_t n, const char *json)
+{
+    text t = {0};
+
+    text_json_bytes(&t, bytes, n);
+    assert_string_equal(t.s, json);
+    text_free(&t);
+}
+
+static void strings_of_json_are_utf8_whatever_the_bytes(void **state)
+{
+    (void)state;
+    assert_json("a\"\\\n", 4, "\"a\\\"\\\\\\u000a\"");
+    assert_json("a\0b", 3, "\"a\\u0000b\"");
+    assert_json("\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80", 9, "\"\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80\"");
+    assert_json("\xe9t", 2, "\"\xef\xbf\xbdt\"");                               /* Latin-1 */
+    assert_json("\xe2\x82", 2, "\"\xef\xbf\xbd\xef\xbf\xbd\"");                 /* cut off */
+    assert_json("\xc0\x80", 2, "\"\xef\xbf\xbd\xef\xbf\xbd\"");                 /* longer than need be */
+    assert_json("\xed\xa0\x80", 3, "\"\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\""); /* half of a pair of UTF-16 */
+    assert_json("\xf4\x90\x80\x80", 4, "\"\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\"");
 }
 
 static void numbers_read_back_as_the_same_bits(void **state)
@@ -86,6 +142,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nearest_name_is_found_for_slips_only),
+        cmocka_unit_test(a_name_is_never_taken_for_a_slip_for_itself),
+        cmocka_unit_test(a_name_of_300_letters_is_near_nothing),
+        cmocka_unit_test(a_hint_is_empty_or_ends_a_message),
+        cmocka_unit_test(strings_of_json_are_utf8_whatever_the_bytes),
         cmocka_unit_test(numbers_read_back_as_the_same_bits),
         cmocka_unit_test(what_is_not_finite_becomes_null),
         cmocka_unit_test(arena_memory_is_zeroed_aligned_and_refuses_overflow),

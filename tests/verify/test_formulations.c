@@ -60,7 +60,8 @@ static double smallest_singular_value(int n, double *h)
     assert_non_null(x);
     y = x + p->space.n_dof;
     zero = y + p->space.n_dof;
-    if (assembly_run(&p->system.assembly, &(assembly_state){.x = zero, .dot = zero, .old = zero, .bodies = problem_points(p)},
+    if (assembly_run(&p->system.assembly,
+                     &(assembly_state){.x = zero, .dot = zero, .old = zero, .bodies = problem_points(p)},
                      p->system.residual, p->system.linear.value, 0, &err))
         fail_msg("%s", err.text);
     for (int64_t i = 0; i < p->space.n_free; i++)
