@@ -2,6 +2,7 @@
  *
  * Lua for case files: text only, an allow-list of functions, capped memory, a budget of
  * instructions, sorted pairs and seeded random numbers, so that a case means the same in every run. */
+#include "base/random.h"
 #include "case/case.h"
 
 #include <lauxlib.h>
@@ -197,16 +198,13 @@ static int print_line(lua_State *l)
     return 0;
 }
 
-/* xorshift64*, seeded with a constant. */
+/* math.random as in Lua, but the same in every run. */
 static int random_number(lua_State *l)
 {
     case_file *c = case_of(l);
     double u;
 
-    c->random ^= c->random >> 12;
-    c->random ^= c->random << 25;
-    c->random ^= c->random >> 27;
-    u = (double)((c->random * 2685821657736338717ULL) >> 11) * 0x1p-53;
+    u = random_next(&c->random);
     if (lua_gettop(l) == 0) {
         lua_pushnumber(l, u);
     } else {
@@ -221,7 +219,7 @@ static int random_number(lua_State *l)
 
 static int seed_random(lua_State *l)
 {
-    case_of(l)->random = (unsigned long long)luaL_checkinteger(l, 1) * 2 + 88172645463325252ULL;
+    case_of(l)->random = random_start((unsigned long long)luaL_checkinteger(l, 1));
     return 0;
 }
 
@@ -345,7 +343,7 @@ int sandbox_open(case_file *c, error *err)
     if (!c->lua)
         return error_memory(err, "Lua", 0);
     c->budget = BUDGET_THOUSANDS;
-    c->random = 88172645463325252ULL;
+    c->random = RANDOM_SEED;
     lua_pushlightuserdata(c->lua, c);
     lua_rawsetp(c->lua, LUA_REGISTRYINDEX, &case_key);
     lua_pushcfunction(c->lua, open_libraries);
