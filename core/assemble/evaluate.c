@@ -2,6 +2,7 @@
  *
  * Terms at the points of a batch: their outputs are added up per test function, their
  * derivatives per pair of test and trial function. */
+#include "base/process.h"
 #include "base/text.h"
 #include "assemble/assemble.h"
 
@@ -155,6 +156,7 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
         .other_density = c->where == PF_PAIR ? (double *)w->other_density : NULL,
         .scratch = w->scratch,
         .kernel = &w->report,
+        .host = &term_host,
     };
 
     memset(w->test, 0, c->test_size * nq * sizeof(v8));
@@ -177,17 +179,17 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
         }
         b.params = p->use->params;
         w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
-        term_now = (term_breadcrumb){w->report.plugin, t->name, "residual", c->cell[c->batch[batch]]};
+        process_enter(w->report.plugin, t->name, "residual", c->cell[c->batch[batch]]);
         status = t->residual(&b, in, out);
         if (!status && diagnose && find_nan(p, &b, out, "output", &w->report))
-            return PF_FAIL;
+            status = PF_FAIL;
         if (!status) {
             add_output(c, p, out, dim, w);
-            term_now.phase = "Jacobian";
+            process_enter(w->report.plugin, t->name, "Jacobian", c->cell[c->batch[batch]]);
             if (with_matrix)
                 status = add_jacobian(c, s, p, &b, in, dim, w);
         }
-        term_now = (term_breadcrumb){0};
+        process_leave();
         if (status) {
             if (!w->report.status)
                 snprintf(w->report.text, sizeof w->report.text, "term %s.%s returned %d without saying why",

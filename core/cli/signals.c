@@ -2,32 +2,68 @@
  *
  * Signals: ask a run to end after its step; name the plugin in which a crash happened; end a
  * case file that does not come back. */
+#include "base/process.h"
 #include "cli/cli.h"
 
+#include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
 #include <unistd.h>
 
-volatile sig_atomic_t cli_stop;
-static char watchdog_text[600];
-
-static void on_stop(int number)
+static sigset_t stop_signals(void)
 {
-    if (cli_stop)
-        _exit(128 + number);
-    cli_stop = number;
+    sigset_t set;
+
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    return set;
 }
 
+/* A thread that does nothing else.  The first signal asks the run to end after its step, the second ends it at
+ * once. */
+static void *take_signals(void *unused)
+{
+    const sigset_t set = stop_signals();
+    int number;
+
+    while (sigwait(&set, &number) == 0) {
+        if (process.stop)
+            _exit(128 + number);
+        process.stop = number;
+    }
+    return unused;
+}
+
+/* SIGINT and SIGTERM are blocked in all threads (those to come inherit it) and taken by one, so that no library can
+ * take them in between.  METIS does: while it runs, its own handler of SIGTERM makes it fail, which nobody hears
+ * of, and jumps out of whatever was interrupted, malloc too.  Without the thread both end the program at once, as
+ * usual. */
 void cli_catch_signals(void)
 {
-    struct sigaction a = {.sa_handler = on_stop};
+    const sigset_t set = stop_signals();
+    sigset_t all, before;
+    pthread_t taker;
 
-    sigaction(SIGINT, &a, NULL);
-    sigaction(SIGTERM, &a, NULL);
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before); /* the thread takes no alarm and no signal of others */
+    if (pthread_create(&taker, NULL, take_signals, NULL) == 0) {
+        pthread_detach(taker);
+        sigorset(&before, &before, &set);
+    }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN); /* a full quota is an error of write, not the end of the program */
+}
+
+void cli_release_signals(void)
+{
+    const sigset_t set = stop_signals();
+
+    pthread_sigmask(SIG_UNBLOCK, &set, NULL);
 }
 
 static void put(const char *s)
@@ -40,7 +76,8 @@ static void put(const char *s)
 static void on_crash(int number)
 {
     char digits[24], *d = digits + sizeof digits;
-    int64_t n = term_now.cell;
+    const breadcrumb in = process_now();
+    int64_t n = in.cell;
 
     put("plugflow: crashed (");
     put(number == SIGSEGV   ? "bad memory access"
@@ -48,13 +85,13 @@ static void on_crash(int number)
         : number == SIGABRT ? "abort"
                             : "signal");
     put(")");
-    if (term_now.plugin) {
+    if (in.plugin) {
         put(" inside term ");
-        put(term_now.plugin);
+        put(in.plugin);
         put(".");
-        put(term_now.term);
+        put(in.term);
         put(", ");
-        put(term_now.phase);
+        put(in.phase);
         if (n >= 0) {
             put(", cells from ");
             *--d = 0;
@@ -63,7 +100,7 @@ static void on_crash(int number)
             while ((n /= 10) > 0);
             put(d);
             put("; plugflow test ");
-            put(term_now.plugin);
+            put(in.plugin);
             put(" runs it in isolation");
         }
     }
@@ -74,8 +111,7 @@ static void on_crash(int number)
 
 void cli_catch_crashes(void)
 {
-    static char stack[1 << 16];
-    stack_t s = {.ss_sp = stack, .ss_size = sizeof stack};
+    stack_t s = {.ss_sp = process.crash_stack, .ss_size = sizeof process.crash_stack};
     struct sigaction a = {.sa_handler = on_crash, .sa_flags = SA_ONSTACK};
 
     sigaltstack(&s, NULL);
@@ -88,7 +124,7 @@ void cli_catch_crashes(void)
 static void on_watchdog(int number)
 {
     (void)number;
-    put(watchdog_text);
+    put(process.watchdog);
     _exit(ERR_CASE);
 }
 
@@ -97,7 +133,7 @@ void cli_watchdog(int seconds, const char *path)
     struct itimerval t = {.it_value = {.tv_sec = seconds}};
     struct sigaction a = {.sa_handler = on_watchdog};
 
-    snprintf(watchdog_text, sizeof watchdog_text,
+    snprintf(process.watchdog, sizeof process.watchdog,
              "plugflow: %.400s: reading the case takes longer than %d s; is there an endless loop in it?\n", path,
              seconds);
     sigaction(SIGALRM, &a, NULL);
