@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Signals to the program at moments that matter. */
+#include "support/program.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+/* A run of the cavity in the background; what it says on stderr comes through the pipe. */
+static pid_t start_cavity(const char *cells, const char *dir, FILE **said)
+{
+    const char *program = getenv("PLUGFLOW_PROGRAM"), *source = getenv("PLUGFLOW_SOURCE");
+    int end[2];
+    pid_t pid;
+
+    assert_non_null(program);
+    assert_int_equal(pipe(end), 0);
+    pid = fork();
+    assert_true(pid >= 0);
+    if (pid == 0) {
+        dup2(end[1], STDERR_FILENO);
+        close(end[0]);
+        close(end[1]);
+        if (!source || chdir(source) != 0 || !freopen("/dev/null", "w", stdout))
+            _exit(99);
+        execl(program, program, "run", "cases/cavity2d.lua", "--set", cells, "--out", dir, (char *)NULL);
+        _exit(99);
+    }
+    close(end[1]);
+    *said = fdopen(end[0], "r");
+    assert_non_null(*said);
+    return pid;
+}
+
+static void wait_for_line(FILE *said, const char *with)
+{
+    char line[500];
+
+    while (fgets(line, sizeof line, said))
+        if (strstr(line, with))
+            return;
+    fail_msg("the program ended without saying \"%s\"", with);
+}
+
+/* Returns when the program has had so much more processor time, or has ended. */
+static void wait_for_work(pid_t pid, double seconds)
+{
+    const struct timespec pause = {.tv_nsec = 5000000};
+    struct timespec t;
+    siginfo_t ended = {0};
+    clockid_t clock;
+    double until = 0;
+
+    assert_int_equal(clock_getcpuclockid(pid, &clock), 0);
+    for (int k = 0; clock_gettime(clock, &t) == 0; k++) {
+        double now = (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+
+        if (k == 0)
+            until = now + seconds;
+        waitid(P_PID, (id_t)pid, &ended, WEXITED | WNOHANG | WNOWAIT);
+        if (now >= until || ended.si_pid == pid)
+            return;
+        nanosleep(&pause, NULL);
+    }
+}
+
+/* METIS, which has SIGTERM for itself while it runs, takes most of the first second after the first residual. */
+static void sigterm_while_the_unknowns_are_ordered_ends_the_run_with_143(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 2; k++) {
+        char dir[400], said_last[500] = "", line[500];
+        FILE *said;
+        int status;
+        pid_t pid;
+
+        snprintf(dir, sizeof dir, "%s/cavity", scratch());
+        pid = start_cavity("n=150", dir, &said);
+        wait_for_line(said, "newton  0");
+        wait_for_work(pid, 0.25 * k);
+        kill(pid, SIGTERM);
+        while (fgets(line, sizeof line, said))
+            strcpy(said_last, line);
+        fclose(said);
+        assert_int_equal(waitpid(pid, &status, 0), pid);
+        if (!WIFEXITED(status) || WEXITSTATUS(status) != 143)
+            fail_msg("%s %d instead of exit code 143; it said last: %s", WIFEXITED(status) ? "exit code" : "signal",
+                     WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status), said_last);
+        assert_non_null(strstr(said_last, "stopped by a signal after 1 steps"));
+    }
+}
+
+/* And not after the iteration, when it would say so. */
+static void second_sigterm_ends_the_program_at_once(void **state)
+{
+    char dir[400], line[500];
+    FILE *said;
+    int status;
+    pid_t pid;
+
+    (void)state;
+    snprintf(dir, sizeof dir, "%s/cavity", scratch());
+    pid = start_cavity("n=150", dir, &said);
+    wait_for_line(said, "newton  0");
+    for (int k = 0; k < 2; k++) {
+        wait_for_work(pid, 0.1);
+        kill(pid, SIGTERM);
+    }
+    while (fgets(line, sizeof line, said))
+        assert_null(strstr(line, "stopped by a signal"));
+    fclose(said);
+    assert_int_equal(waitpid(pid, &status, 0), pid);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 143);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sigterm_while_the_unknowns_are_ordered_ends_the_run_with_143),
+        cmocka_unit_test(second_sigterm_ends_the_program_at_once),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
