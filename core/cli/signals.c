@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
+#include <time.h>
 #include <unistd.h>
 
 static sigset_t stop_signals(void)
@@ -24,18 +25,22 @@ static sigset_t stop_signals(void)
 }
 
 /* A thread that does nothing else.  The first signal asks the run to end after its step, the second ends it at
- * once. */
+ * once. What comes right after the first is still the first: timeout(1) and batch systems send it to the process
+ * and to its group. */
 static void *take_signals(void *unused)
 {
     const sigset_t set = stop_signals();
+    const struct timespec at_once = {0}, a_moment = {.tv_nsec = 200000000};
     int number;
 
-    while (sigwait(&set, &number) == 0) {
-        if (process.stop)
-            _exit(128 + number);
-        process.stop = number;
-    }
-    return unused;
+    (void)unused;
+    sigwait(&set, &number);
+    process.stop = number;
+    nanosleep(&a_moment, NULL);
+    while (sigtimedwait(&set, NULL, &at_once) > 0)
+        ;
+    sigwait(&set, &number);
+    _exit(128 + number);
 }
 
 /* SIGINT and SIGTERM are blocked in all threads (those to come inherit it) and taken by one, so that no library can

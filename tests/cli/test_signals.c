@@ -101,9 +101,37 @@ static void sigterm_while_the_unknowns_are_ordered_ends_the_run_with_143(void **
     }
 }
 
+/* As timeout(1) sends it: to the process, then to its group. */
+static void signal_that_is_sent_twice_in_a_row_ends_the_run_after_its_step(void **state)
+{
+    const struct timespec pause = {.tv_nsec = 20000000};
+    char dir[400], line[500];
+    FILE *said;
+    int status, told = 0;
+    pid_t pid;
+
+    (void)state;
+    snprintf(dir, sizeof dir, "%s/cavity", scratch());
+    pid = start_cavity("n=64", dir, &said);
+    wait_for_line(said, "newton  0");
+    wait_for_work(pid, 0.05);
+    for (int k = 0; k < 2; k++) {
+        kill(pid, SIGTERM);
+        nanosleep(&pause, NULL);
+    }
+    while (fgets(line, sizeof line, said))
+        told |= strstr(line, "stopped by a signal") != NULL;
+    fclose(said);
+    assert_int_equal(waitpid(pid, &status, 0), pid);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 143);
+    assert_true(told);
+}
+
 /* And not after the iteration, when it would say so. */
 static void second_sigterm_ends_the_program_at_once(void **state)
 {
+    const struct timespec pause = {.tv_nsec = 400000000};
     char dir[400], line[500];
     FILE *said;
     int status;
@@ -113,10 +141,10 @@ static void second_sigterm_ends_the_program_at_once(void **state)
     snprintf(dir, sizeof dir, "%s/cavity", scratch());
     pid = start_cavity("n=150", dir, &said);
     wait_for_line(said, "newton  0");
-    for (int k = 0; k < 2; k++) {
-        wait_for_work(pid, 0.1);
-        kill(pid, SIGTERM);
-    }
+    wait_for_work(pid, 0.1);
+    kill(pid, SIGTERM);
+    nanosleep(&pause, NULL);
+    kill(pid, SIGTERM);
     while (fgets(line, sizeof line, said))
         assert_null(strstr(line, "stopped by a signal"));
     fclose(said);
@@ -129,6 +157,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sigterm_while_the_unknowns_are_ordered_ends_the_run_with_143),
+        cmocka_unit_test(signal_that_is_sent_twice_in_a_row_ends_the_run_after_its_step),
         cmocka_unit_test(second_sigterm_ends_the_program_at_once),
     };
 
