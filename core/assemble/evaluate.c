@@ -2,6 +2,7 @@
  *
  * Terms at the points of a batch: their outputs are added up per test function, their
  * derivatives per pair of test and trial function. */
+#include "base/process.h"
 #include "base/text.h"
 #include "assemble/assemble.h"
 
@@ -135,73 +136,90 @@ int evaluate_any(const assembly *a, const assembly_class *c, const assembly_stat
     return any;
 }
 
-int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
-                   int with_matrix, int diagnose, workspace *w)
+/* What a term sees of the points of a class: what has no meaning there is NULL. */
+static pf_batch batch_of(const assembly_class *c, const assembly_state *s, int dim, workspace *w)
 {
-    int dim = a->space->mesh->dim;
-    int on_body = c->where == PF_SOLID || c->where == PF_SURFACE || c->where == PF_PAIR;
-    size_t nq = (size_t)c->n_q, ld = nq * PF_LANES;
-    pf_batch b = {
-        .size = sizeof b,
+    int on_pair = c->where == PF_PAIR, on_surface = c->where == PF_SURFACE;
+    int on_body = c->where == PF_SOLID || on_surface || on_pair;
+    uint32_t ld = (uint32_t)(c->n_q * (int)PF_LANES);
+
+    return (pf_batch){
+        .size = sizeof(pf_batch),
         .dim = (uint32_t)dim,
-        .n = (uint32_t)ld,
-        .ld = (uint32_t)ld,
+        .n = ld,
+        .ld = ld,
         .t = s->t,
         .dt = s->dt,
         .shift = s->shift,
         .x = (double *)w->x,
-        .normal =
-            c->where == PF_FACET || c->where == PF_SURFACE || c->where == PF_PAIR ? (double *)w->normal : NULL,
+        .normal = c->where == PF_FACET || on_surface || on_pair ? (double *)w->normal : NULL,
         .h = (double *)w->h,
-        .arm = c->where == PF_SOLID || c->where == PF_SURFACE ? (double *)w->arm : NULL,
+        .arm = c->where == PF_SOLID || on_surface ? (double *)w->arm : NULL,
         .density = on_body ? (double *)w->density : NULL,
         .id = on_body ? w->id : NULL,
-        .gap = c->where == PF_PAIR ? (double *)w->gap : NULL,
-        .size_of = c->where == PF_PAIR ? (double *)w->size[0] : NULL,
-        .other_size = c->where == PF_PAIR ? (double *)w->size[1] : NULL,
-        .other_density = c->where == PF_PAIR ? (double *)w->other_density : NULL,
+        .gap = on_pair ? (double *)w->gap : NULL,
+        .size_of = on_pair ? (double *)w->size[0] : NULL,
+        .other_size = on_pair ? (double *)w->size[1] : NULL,
+        .other_density = on_pair ? (double *)w->other_density : NULL,
         .scratch = w->scratch,
         .kernel = &w->report,
+        .host = &term_host,
     };
+}
+
+/* Residual and, if asked for, derivatives of one term, added to what the others gave. */
+static int evaluate_term(const assembly_class *c, const assembly_state *s, int64_t batch, const plan_use *p,
+                         int dim, int with_matrix, int diagnose, pf_batch *b, workspace *w)
+{
+    const pf_term *t = p->use->term;
+    size_t nq = (size_t)c->n_q, ld = nq * PF_LANES;
+    const double *in[TERM_MAX_SLOTS];
+    double *out[TERM_MAX_SLOTS], *at = (double *)w->out;
+    int64_t cell = c->cell[c->batch[batch]];
+    int status;
+
+    for (uint32_t k = 0; k < t->n_in; k++)
+        in[k] = (double *)(w->in + c->input[p->in[k]].at * nq);
+    for (uint32_t o = 0; o < t->n_out; o++) {
+        out[o] = at;
+        at += (size_t)term_components(t->out[o].shape, dim) * ld;
+    }
+    b->params = p->use->params;
+    w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
+    process_enter(w->report.plugin, t->name, "residual", cell);
+    status = t->residual(b, in, out);
+    if (!status && diagnose && find_nan(p, b, out, "output", &w->report))
+        status = PF_FAIL;
+    if (!status) {
+        add_output(c, p, strength(s, p), out, dim, w);
+        process_enter(w->report.plugin, t->name, "Jacobian", cell);
+        if (with_matrix)
+            status = add_jacobian(c, s, p, b, in, dim, w);
+    }
+    process_leave();
+    if (status && !w->report.status)
+        snprintf(w->report.text, sizeof w->report.text, "term %s.%s returned %d without saying why",
+                 w->report.plugin, w->report.term, status);
+    if (status)
+        w->report.status = status;
+    return status;
+}
+
+int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                   int with_matrix, int diagnose, workspace *w)
+{
+    int dim = a->space->mesh->dim;
+    size_t nq = (size_t)c->n_q;
+    pf_batch b = batch_of(c, s, dim, w);
 
     memset(w->test, 0, c->test_size * nq * sizeof(v8));
     if (with_matrix)
         memset(w->block, 0, c->block_size * nq * sizeof(v8));
     for (int u = 0; u < c->n_use; u++) {
         const plan_use *p = &c->use[u];
-        const pf_term *t = p->use->term;
-        const double *in[TERM_MAX_SLOTS];
-        double *out[TERM_MAX_SLOTS], *at = (double *)w->out;
-        int status;
 
-        if (strength(s, p) == 0 || (s->only && !(kinds(a, p) & s->only)))
-            continue;
-        for (uint32_t k = 0; k < t->n_in; k++)
-            in[k] = (double *)(w->in + c->input[p->in[k]].at * nq);
-        for (uint32_t o = 0; o < t->n_out; o++) {
-            out[o] = at;
-            at += (size_t)term_components(t->out[o].shape, dim) * ld;
-        }
-        b.params = p->use->params;
-        w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
-        term_now = (term_breadcrumb){w->report.plugin, t->name, "residual", c->cell[c->batch[batch]]};
-        status = t->residual(&b, in, out);
-        if (!status && diagnose && find_nan(p, &b, out, "output", &w->report))
-            return PF_FAIL;
-        if (!status) {
-            add_output(c, p, strength(s, p), out, dim, w);
-            term_now.phase = "Jacobian";
-            if (with_matrix)
-                status = add_jacobian(c, s, p, &b, in, dim, w);
-        }
-        term_now = (term_breadcrumb){0};
-        if (status) {
-            if (!w->report.status)
-                snprintf(w->report.text, sizeof w->report.text, "term %s.%s returned %d without saying why",
-                         w->report.plugin, w->report.term, status);
-            w->report.status = status;
-            return status;
-        }
+        if (strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)))
+            TRY(evaluate_term(c, s, batch, p, dim, with_matrix, diagnose, &b, w));
     }
     return 0;
 }

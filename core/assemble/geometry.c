@@ -188,6 +188,31 @@ static void points_of_roots(const assembly *a, const assembly_class *c, int64_t 
         }
 }
 
+/* Values and gradients of the basis functions at point q of rule f. */
+static void basis_at(const assembly_class *c, const fe_cell *type, int f, int q, v8 inv[3][3], workspace *w)
+{
+    const v8 zero = {0};
+    int dim = type->dim, nq = c->n_q;
+
+    for (int order = 0; order < 3; order++) {
+        int n_basis = fe_n_basis(type, order);
+
+        for (int i = 0; c->order_used[order] && i < n_basis; i++) {
+            const double *dn = c->dn_ref[f][order][q * n_basis + i];
+
+            w->basis[order][0][i * nq + q] = zero + c->n_ref[f][order][q * n_basis + i];
+            for (int k = 0; c->grad_used[order] && k < dim; k++) {
+                v8 g = inv[0][k] * dn[0] + inv[1][k] * dn[1];
+
+                w->basis[order][k + 1][i * nq + q] = dim == 3 ? g + inv[2][k] * dn[2] : g;
+            }
+        }
+        for (int i = n_basis; c->order_used[order] && i < assemble_padded(n_basis); i++)
+            for (int k = 0; k <= dim; k++)
+                w->basis[order][k][i * nq + q] = zero;
+    }
+}
+
 void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
 {
     const mesh *m = a->space->mesh;
@@ -236,24 +261,7 @@ void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, 
                 x += w->x_node[k * type->n_node + i] * c->n_ref[f][2][q * type->n_node + i];
             w->x[k * nq + q] = x;
         }
-        for (int order = 0; order < 3; order++) {
-            int n_basis = fe_n_basis(type, order);
-
-            for (int i = 0; c->order_used[order] && i < n_basis; i++) {
-                const double *dn = c->dn_ref[f][order][q * n_basis + i];
-                const v8 zero = {0};
-
-                w->basis[order][0][i * nq + q] = zero + c->n_ref[f][order][q * n_basis + i];
-                for (int k = 0; c->grad_used[order] && k < dim; k++) {
-                    v8 g = inv[0][k] * dn[0] + inv[1][k] * dn[1];
-
-                    w->basis[order][k + 1][i * nq + q] = dim == 3 ? g + inv[2][k] * dn[2] : g;
-                }
-            }
-            for (int i = n_basis; c->order_used[order] && i < assemble_padded(n_basis); i++)
-                for (int k = 0; k <= dim; k++)
-                    w->basis[order][k][i * nq + q] = (v8){0};
-        }
+        basis_at(c, type, f, q, inv, w);
     }
     if (c->where == PF_CUT)
         points_of_roots(a, c, batch, w);

@@ -2,6 +2,7 @@
  *
  * What is left of Lua's library: an allow-list, with print, random numbers and undefined names of our own, so
  * that a case has no way out and means the same in every run. */
+#include "base/random.h"
 #include "case/sandbox.h"
 
 #include <lauxlib.h>
@@ -10,7 +11,6 @@
 #include <string.h>
 
 enum { MOST_PRINTED = 1000000 }; /* bytes */
-#define RANDOM_START 88172645463325252ULL
 
 /* Text goes up to MOST_PRINTED; then one line says that the rest is left out. */
 static int print_line(lua_State *l)
@@ -36,26 +36,17 @@ static int print_line(lua_State *l)
     return 0;
 }
 
-/* xorshift64*, seeded with a constant. */
-static unsigned long long next_random(case_file *c)
-{
-    c->random ^= c->random >> 12;
-    c->random ^= c->random << 25;
-    c->random ^= c->random >> 27;
-    return c->random * 2685821657736338717ULL;
-}
-
 /* A whole number in [0, most], each as likely as the others. */
 static unsigned long long random_below(case_file *c, unsigned long long most)
 {
     unsigned long long mask = most, r;
 
     if (most < 1ULL << 53) /* u in [0, 1) has 53 bits */
-        return (unsigned long long)((double)(next_random(c) >> 11) * 0x1p-53 * (double)(most + 1));
+        return (unsigned long long)(random_next(&c->random) * (double)(most + 1));
     for (int shift = 1; shift < 64; shift *= 2)
         mask |= mask >> shift;
     do
-        r = next_random(c) & mask;
+        r = random_bits(&c->random) & mask;
     while (r > most);
     return r;
 }
@@ -66,7 +57,7 @@ static int random_number(lua_State *l)
     int n = lua_gettop(l);
 
     if (n == 0) {
-        lua_pushnumber(l, (double)(next_random(c) >> 11) * 0x1p-53);
+        lua_pushnumber(l, random_next(&c->random));
     } else {
         lua_Integer low = n > 1 ? luaL_checkinteger(l, 1) : 1, high = luaL_checkinteger(l, n > 1 ? 2 : 1);
 
@@ -79,9 +70,7 @@ static int random_number(lua_State *l)
 
 static int seed_random(lua_State *l)
 {
-    unsigned long long state = (unsigned long long)luaL_checkinteger(l, 1) * 2 + RANDOM_START;
-
-    limits_case(l)->random = state ? state : RANDOM_START; /* from 0 it would not move */
+    limits_case(l)->random = random_start((unsigned long long)luaL_checkinteger(l, 1));
     return 0;
 }
 
@@ -146,7 +135,7 @@ void library_open(lua_State *l)
         lua_pushnil(l);
         lua_setglobal(l, drop[i]);
     }
-    limits_case(l)->random = RANDOM_START;
+    limits_case(l)->random = RANDOM_SEED;
     lua_getglobal(l, "math");
     lua_pushcfunction(l, random_number);
     lua_setfield(l, -2, "random");

@@ -12,7 +12,13 @@
 
 /* What a case may hold; beyond that there is a reserve for what the kernel itself asks of Lua outside of calls
  * (names of keys), where an error could go nowhere. */
-enum { LUA_BYTES = 1 << 30, RESERVE_BYTES = 1 << 26, HOOK_EVERY = 1000, BUDGET_THOUSANDS = 200000 };
+enum {
+    LUA_BYTES = 1 << 30,
+    RESERVE_BYTES = 1 << 26,
+    HOOK_EVERY = 1000,
+    BUDGET_THOUSANDS = 200000,
+    LONG_THOUSANDS = 1000
+};
 
 case_file *limits_case(lua_State *l)
 {
@@ -84,7 +90,8 @@ static void budget_hook(lua_State *l, lua_Debug *ar)
         c->last_line = ar->currentline;
         memcpy(c->last_file, ar->short_src, sizeof c->last_file);
     }
-    if (signal_number(c)) {
+    /* A short call lets the step go on that it belongs to; one that takes long ends at once. */
+    if (signal_number(c) && c->budget < BUDGET_THOUSANDS - LONG_THOUSANDS) {
         c->code = ERR_SIGNAL + signal_number(c);
         limits_raise(l, "stopped by a signal");
     }
@@ -140,10 +147,7 @@ int case_call(case_file *c, const char *name, int n_arg, int n_result, error *er
 {
     int status;
 
-    if (signal_number(c)) {
-        lua_pop(c->lua, n_arg + 1);
-        return error_set(err, ERR_SIGNAL + signal_number(c), "stopped by a signal");
-    }
+    /* A short call lets the step go on that it belongs to; one that takes long ends at once. */
     c->code = 0;
     c->running = name;
     c->budget = BUDGET_THOUSANDS;

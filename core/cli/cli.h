@@ -8,8 +8,6 @@
 #include "problem/problem.h"
 #include "term/term.h"
 
-#include <signal.h>
-
 typedef struct cli {
     const char *operand[8];
     int n_operand;
@@ -45,8 +43,10 @@ typedef struct cli_case {
 int cli_open(const cli *o, cli_case *k, error *err);
 void cli_close(cli_case *k);
 
-extern volatile sig_atomic_t cli_stop; /* number of the signal that wants the run to end */
+/* Before there is any other thread. */
 void cli_catch_signals(void);
+/* In a child process, which has no thread that takes them: SIGINT and SIGTERM end it. */
+void cli_release_signals(void);
 void cli_catch_crashes(void);
 /* Ends the program with a message if the case file does not come back within `seconds` (0: off). */
 void cli_watchdog(int seconds, const char *path);

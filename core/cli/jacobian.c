@@ -2,6 +2,7 @@
  *
  * plugflow jacobian CASE: the assembled matrix against differences of the assembled residual,
  * per pair of fields, at a random state of the real problem. */
+#include "base/random.h"
 #include "cli/cli.h"
 
 #include <math.h>
@@ -11,16 +12,9 @@
 
 enum { DIRECTIONS = 4 };
 
-/* Reproducible numbers in [-1, 1]. */
-static double pseudo_random(unsigned *seed)
-{
-    *seed = *seed * 1664525u + 1013904223u;
-    return (double)*seed / 2147483648.0 - 1;
-}
-
 /* Sums over rows of field f of (J d - dR)^2 and (J d)^2 for directions d in field g. */
 static int compare(problem *p, double shift, double *x, double *d, double *plus, double *minus, int g, double *diff,
-                   double *size, unsigned *seed, error *err)
+                   double *size, unsigned long long *random, error *err)
 {
     const space *s = &p->space;
     newton_system *sys = &p->system;
@@ -37,7 +31,7 @@ static int compare(problem *p, double shift, double *x, double *d, double *plus,
                              .bodies = problem_points(p)};
 
         for (int64_t i = 0; i < s->n_dof; i++)
-            d[i] = s->dof_field[i] == g && !s->fixed[i] && !idle[i] ? pseudo_random(seed) : 0;
+            d[i] = s->dof_field[i] == g && !s->fixed[i] && !idle[i] ? 2 * random_next(random) - 1 : 0;
         for (int sign = -1; sign <= 1; sign += 2) {
             for (int64_t i = 0; i < s->n_dof; i++) {
                 x[i] += sign * h * d[i];
@@ -66,7 +60,7 @@ static int all_pairs(problem *p, error *err)
     newton_system *sys = &p->system;
     const uint8_t *idle = p->bodies.now ? p->bodies.now->idle : sys->assembly.none_idle;
     double shift = p->description.time.unsteady ? 1.5 / p->description.time.step : 0, *x, *d, *plus, *minus;
-    unsigned seed = 1;
+    unsigned long long random = RANDOM_SEED;
     int wrong = 0;
 
     ARENA_NEW(&p->memory, x, s->n_dof, err);
@@ -74,7 +68,7 @@ static int all_pairs(problem *p, error *err)
     ARENA_NEW(&p->memory, plus, s->n_dof, err);
     ARENA_NEW(&p->memory, minus, s->n_dof, err);
     for (int64_t i = 0; i < s->n_dof; i++) {
-        x[i] = p->state.x[i] + (idle[i] || s->fixed[i] & SPACE_AWAY ? 0 : pseudo_random(&seed));
+        x[i] = p->state.x[i] + (idle[i] || s->fixed[i] & SPACE_AWAY ? 0 : 2 * random_next(&random) - 1);
         sys->step[i] = shift * x[i];
     }
     TRY(assembly_run(&sys->assembly,
@@ -89,7 +83,7 @@ static int all_pairs(problem *p, error *err)
     for (int g = 0; g < s->n_field; g++) {
         double diff[SPACE_MAX_FIELDS] = {0}, size[SPACE_MAX_FIELDS] = {0};
 
-        TRY(compare(p, shift, x, d, plus, minus, g, diff, size, &seed, err));
+        TRY(compare(p, shift, x, d, plus, minus, g, diff, size, &random, err));
         for (int f = 0; f < s->n_field; f++) {
             double e = sqrt(diff[f]), n = sqrt(size[f]);
             int ok = e <= 1e-6 * n || e <= 1e-7 * (1 + n);

@@ -10,8 +10,6 @@
 #include <string.h>
 #include <strings.h>
 
-enum { CASE_SECONDS = 60 };
-
 static const struct command {
     const char *name, *operands, *doc;
     int (*run)(const cli *, error *);
@@ -137,32 +135,6 @@ static int parse(int argc, char **argv, cli *c, error *err)
         }
     }
     return 0;
-}
-
-int cli_open(const cli *o, cli_case *k, error *err)
-{
-    int status;
-
-    memset(k, 0, sizeof *k);
-    cli_watchdog(CASE_SECONDS, o->operand[0]);
-    status = case_load(&k->c, o->operand[0], o->set, o->n_set, &cli_stop, err);
-    cli_watchdog(0, "");
-    if (k->c.printed.s && !o->quiet)
-        fputs(k->c.printed.s, stderr);
-    if (!status)
-        status = registry_create(&k->r, o->plugin, o->n_plugin, err);
-    if (!status)
-        status = problem_create(&k->p, &k->c, &k->r, o->n_thread, err);
-    if (!status)
-        k->p.system.linear.memory_limit = o->memory_limit;
-    return status;
-}
-
-void cli_close(cli_case *k)
-{
-    problem_destroy(&k->p);
-    case_destroy(&k->c);
-    registry_destroy(&k->r);
 }
 
 static const struct command *find_command(const char *name, error *err)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * plugflow run CASE. */
+#include "base/process.h"
 #include "cli/cli.h"
 
 #include "run/run.h"
@@ -114,7 +115,7 @@ int cli_run(const cli *o, error *err)
             introduce(&k->p);
         t.start = solve_seconds();
         printed = k->c.printed.n;
-        status = run_problem(&k->p, dir, &talk, &cli_stop, &result, err);
+        status = run_problem(&k->p, dir, &talk, &process.stop, &result, err);
         if (t.line_open)
             fputc('\n', stderr);
         if (k->c.printed.n > printed && !o->quiet)
@@ -123,10 +124,10 @@ int cli_run(const cli *o, error *err)
             print_file(dir, "summary.json");
         if (!status && !o->quiet && !o->json)
             conclude(&result, dir);
-        if (!status && cli_stop) {
+        if (!status && process.stop) {
             error_set(err, 0, "stopped by a signal after %ld steps; what was computed until then is in %s",
                       result.steps, dir);
-            status = 128 + cli_stop;
+            status = 128 + process.stop;
         }
     }
     cli_close(k);

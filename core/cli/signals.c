@@ -2,32 +2,27 @@
  *
  * Signals: ask a run to end after its step; name the plugin in which a crash happened; end a
  * case file that does not come back. */
+#include "base/process.h"
 #include "cli/cli.h"
 
+#include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
+#include <time.h>
 #include <unistd.h>
 
-volatile sig_atomic_t cli_stop;
-static char watchdog_text[600];
-
-static void on_stop(int number)
+static sigset_t stop_signals(void)
 {
-    if (cli_stop)
-        _exit(128 + number);
-    cli_stop = number;
-}
+    sigset_t set;
 
-void cli_catch_signals(void)
-{
-    struct sigaction a = {.sa_handler = on_stop};
-
-    sigaction(SIGINT, &a, NULL);
-    sigaction(SIGTERM, &a, NULL);
-    signal(SIGPIPE, SIG_IGN);
-    signal(SIGXFSZ, SIG_IGN); /* a full quota is an error of write, not the end of the program */
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    sigaddset(&set, SIGHUP);
+    return set;
 }
 
 static void put(const char *s)
@@ -36,11 +31,63 @@ static void put(const char *s)
         return;
 }
 
+/* A thread that does nothing else.  Before there is anything to lose a signal ends the program at once; in a run
+ * the first asks it to end after its step, the second ends it at once. What comes right after the first is still
+ * the first: timeout(1) and batch systems send it to the process and to its group. */
+static void *take_signals(void *unused)
+{
+    const sigset_t set = stop_signals();
+    const struct timespec at_once = {0}, a_moment = {.tv_nsec = 200000000};
+    int number;
+
+    (void)unused;
+    sigwait(&set, &number);
+    process.stop = number;
+    if (!process.running) {
+        put("plugflow: stopped by a signal before the run began; nothing was written\n");
+        _exit(128 + number);
+    }
+    nanosleep(&a_moment, NULL);
+    while (sigtimedwait(&set, NULL, &at_once) > 0)
+        ;
+    sigwait(&set, &number);
+    _exit(128 + number);
+}
+
+/* SIGINT, SIGTERM and SIGHUP are blocked in all threads (those to come inherit it) and taken by one, so that no
+ * library can take them in between.  METIS does: while it runs, its own handler of SIGTERM makes it fail, which
+ * nobody hears of, and jumps out of whatever was interrupted, malloc too.  Without the thread both end the program
+ * at once, as usual. */
+void cli_catch_signals(void)
+{
+    const sigset_t set = stop_signals();
+    sigset_t all, before;
+    pthread_t taker;
+
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before); /* the thread takes no alarm and no signal of others */
+    if (pthread_create(&taker, NULL, take_signals, NULL) == 0) {
+        pthread_detach(taker);
+        sigorset(&before, &before, &set);
+    }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN); /* a full quota is an error of write, not the end of the program */
+}
+
+void cli_release_signals(void)
+{
+    const sigset_t set = stop_signals();
+
+    pthread_sigmask(SIG_UNBLOCK, &set, NULL);
+}
+
 /* Only writes; then the signal goes its way. */
 static void on_crash(int number)
 {
     char digits[24], *d = digits + sizeof digits;
-    int64_t n = term_now.cell;
+    const breadcrumb in = process_now();
+    int64_t n = in.cell;
 
     put("plugflow: crashed (");
     put(number == SIGSEGV   ? "bad memory access"
@@ -48,13 +95,13 @@ static void on_crash(int number)
         : number == SIGABRT ? "abort"
                             : "signal");
     put(")");
-    if (term_now.plugin) {
+    if (in.plugin) {
         put(" inside term ");
-        put(term_now.plugin);
+        put(in.plugin);
         put(".");
-        put(term_now.term);
+        put(in.term);
         put(", ");
-        put(term_now.phase);
+        put(in.phase);
         if (n >= 0) {
             put(", cells from ");
             *--d = 0;
@@ -63,7 +110,7 @@ static void on_crash(int number)
             while ((n /= 10) > 0);
             put(d);
             put("; plugflow test ");
-            put(term_now.plugin);
+            put(in.plugin);
             put(" runs it in isolation");
         }
     }
@@ -74,8 +121,7 @@ static void on_crash(int number)
 
 void cli_catch_crashes(void)
 {
-    static char stack[1 << 16];
-    stack_t s = {.ss_sp = stack, .ss_size = sizeof stack};
+    stack_t s = {.ss_sp = process.crash_stack, .ss_size = sizeof process.crash_stack};
     struct sigaction a = {.sa_handler = on_crash, .sa_flags = SA_ONSTACK};
 
     sigaltstack(&s, NULL);
@@ -88,7 +134,7 @@ void cli_catch_crashes(void)
 static void on_watchdog(int number)
 {
     (void)number;
-    put(watchdog_text);
+    put(process.watchdog);
     _exit(ERR_CASE);
 }
 
@@ -97,7 +143,7 @@ void cli_watchdog(int seconds, const char *path)
     struct itimerval t = {.it_value = {.tv_sec = seconds}};
     struct sigaction a = {.sa_handler = on_watchdog};
 
-    snprintf(watchdog_text, sizeof watchdog_text,
+    snprintf(process.watchdog, sizeof process.watchdog,
              "plugflow: %.400s: reading the case takes longer than %d s; is there an endless loop in it?\n", path,
              seconds);
     sigaction(SIGALRM, &a, NULL);

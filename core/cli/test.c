@@ -69,6 +69,7 @@ int cli_test(const cli *o, error *err)
     if (child == 0) {
         struct rlimit cpu = {TEST_SECONDS, TEST_SECONDS + 5};
 
+        cli_release_signals();
         setrlimit(RLIMIT_CPU, &cpu);
         status = test(o, err);
         if (status)

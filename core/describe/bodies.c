@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * particle {} and particles {} of a case. */
+#include "base/random.h"
 #include "describe/describe.h"
 
 #include <lauxlib.h>
@@ -137,15 +138,6 @@ static int read_one(description *d, const case_block *b, error *err)
     return d->c->n_error ? 0 : add_body(d, &q, err);
 }
 
-/* Numbers in [0, 1), the same in every run. */
-static double uniform(unsigned long long *s)
-{
-    *s ^= *s >> 12;
-    *s ^= *s << 25;
-    *s ^= *s >> 27;
-    return (double)((*s * 2685821657736338717ULL) >> 11) * 0x1p-53;
-}
-
 /* particles { n, shape, density, inside = {{...}, {...}}, gap, seed }: places at random, without overlap. */
 static int read_many(description *d, const case_block *b, error *err)
 {
@@ -177,7 +169,7 @@ static int read_many(description *d, const case_block *b, error *err)
                         reader_table(&r, "shape", "disk{radius = ...}, sphere{}, ellipse{}, rectangle{} ...")))
         TRY(read_shape(d, b, &q.shape, err));
     reader_close(&r);
-    state = 88172645463325252ULL + 2 * (unsigned long long)seed;
+    state = random_start((unsigned long long)seed);
     while (!d->c->n_error && d->n_body < first + n) {
         int ok = 1;
 
@@ -189,7 +181,7 @@ static int read_many(description *d, const case_block *b, error *err)
         }
         for (int k = 0; k < d->dim; k++)
             q.start.x[k] = corner[0][k] + q.shape.radius +
-                           (corner[1][k] - corner[0][k] - 2 * q.shape.radius) * uniform(&state);
+                           (corner[1][k] - corner[0][k] - 2 * q.shape.radius) * random_next(&state);
         for (int i = 0; i < d->n_body && ok; i++) {
             double d2 = 0, reach = d->body[i].shape.radius + q.shape.radius + gap;
 

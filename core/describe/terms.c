@@ -156,6 +156,18 @@ static int find_plugin(description *d, registry *r, const case_block *b, char *n
     return 0;
 }
 
+/* Terms from number `first` on that an earlier line has switched on. */
+static void check_twice(const description *d, const case_block *b, const char *what, const char *plugin, int first)
+{
+    for (int i = 0; i < first; i++)
+        for (int k = first; k < d->n_use; k++)
+            if (d->use[i].term == d->use[k].term) {
+                case_wrong(d->c, b, NULL, "%s: %s.%s is on already, by an earlier line", what, plugin,
+                           d->use[k].term->name);
+                return;
+            }
+}
+
 static int read_term(description *d, registry *r, const case_block *b, reader *fluid, int outside, error *err)
 {
     static const char *const over_name[] = {"all", "fluid", NULL};
@@ -186,12 +198,12 @@ static int read_term(description *d, registry *r, const case_block *b, reader *f
             continue;
         found = 1;
         TRY(add_use(d, plugin, t, err));
-        if (how == TERM_ANALYTIC && !t->jacobian)
+        if (!term_has_derivative(t, (enum term_derivative)how))
             case_wrong(
                 d->c, b, "jacobian",
-                "%s: jacobian = \"analytic\", but %s.%s has none by hand; leave the key out (\"auto\" takes the "
+                "%s: jacobian = \"%s\", but %s.%s has no such derivative; leave the key out (\"auto\" takes the "
                 "best there is)",
-                what, name, t->name);
+                what, derivative_name[how], name, t->name);
         d->use[d->n_use - 1].how = (enum term_derivative)how;
         if (over && t->where == PF_CELL)
             d->use[d->n_use - 1].where = PF_FLUID;
@@ -211,13 +223,7 @@ static int read_term(description *d, registry *r, const case_block *b, reader *f
         if (u->term->check && u->term->check(u->params, why, sizeof why))
             case_wrong(d->c, b, NULL, "%s: %s", what, why);
     }
-    for (int i = 0; i < first; i++)
-        for (int k = first; k < d->n_use; k++)
-            if (d->use[i].term == d->use[k].term) {
-                case_wrong(d->c, b, NULL, "%s: %s.%s is on already, by an earlier line", what, name,
-                           d->use[k].term->name);
-                return 0;
-            }
+    check_twice(d, b, what, name, first);
     return 0;
 }
 

@@ -4,6 +4,7 @@
 #include "run/run.h"
 
 #include "base/clock.h"
+#include "base/process.h"
 #include "io/vtu.h"
 
 #include <fcntl.h>
@@ -71,6 +72,7 @@ static int open_files(run *r, text *units, error *err)
 {
     char path[4600];
 
+    process.running = 1;
     TRY(file_make_dir(r->dir, err));
     TRY(file_clean_run(r->dir, err));
     TRY(output_case(r, err));

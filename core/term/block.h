@@ -61,4 +61,8 @@ static inline double block_exchanged_distance(const double *a, const double *b, 
     return sqrt(s);
 }
 
+/* What turns the given block (rows x cols, [row][col][ld]) into the true one: "sign", "factor 2", "transpose",
+ * "missing", or "" -- into text. */
+void block_diagnose(const double *given, const double *truth, int rows, int cols, size_t ld, char *text, size_t n);
+
 #endif

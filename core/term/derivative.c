@@ -122,9 +122,27 @@ static int by_differences(const pf_term *t, const pf_batch *b, const double *con
     return 0;
 }
 
+int term_has_derivative(const pf_term *t, enum term_derivative how)
+{
+    int unknowns = 0;
+
+    for (uint32_t k = 0; k < t->n_in; k++)
+        unknowns += term_is_unknown(&t->in[k]);
+    if (unknowns && how == TERM_ANALYTIC)
+        return t->jacobian != NULL;
+    if (unknowns && how == TERM_COMPLEX)
+        return t->residual_c != NULL;
+    return 1;
+}
+
 int term_jacobian(const pf_term *t, enum term_derivative how, const pf_batch *b, const double *const *in,
                   double *const *jac, void *room)
 {
+    if (!term_has_derivative(t, how))
+        return term_host.fail(b, b->ld, PF_FAIL,
+                              "the case wants derivatives %s, and the term has none; \"auto\" is "
+                              "what it has",
+                              how == TERM_ANALYTIC ? "by hand (\"analytic\")" : "by complex step (\"complex\")");
     if (how == TERM_AUTO)
         how = t->jacobian ? TERM_ANALYTIC : t->residual_c ? TERM_COMPLEX : TERM_FD;
     if (how == TERM_ANALYTIC && t->jacobian)

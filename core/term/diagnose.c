@@ -2,13 +2,11 @@
  *
  * What is wrong with a Jacobian block that is not the derivative. */
 #include "term/block.h"
-#include "term/selftest.h"
 
 #include <math.h>
 #include <stdio.h>
 
-void selftest_diagnose(const double *given, const double *truth, int rows, int cols, size_t ld, char *text,
-                       size_t n)
+void block_diagnose(const double *given, const double *truth, int rows, int cols, size_t ld, char *text, size_t n)
 {
     size_t m = (size_t)(rows * cols) * ld;
     double size = block_norm(truth, m), mine = block_norm(given, m), dot = 0;

@@ -3,12 +3,12 @@
  * Finding and loading plugins.  Each way in which loading can fail has its own message. */
 #include "term/term.h"
 
+#include "base/process.h"
 #include "base/text.h"
 
 #include <dirent.h>
 #include <dlfcn.h>
 #include <limits.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,41 +18,6 @@
 #ifndef PF_PLUGIN_DIR
 #define PF_PLUGIN_DIR "/usr/local/lib/plugflow/plugins"
 #endif
-#ifndef PF_VERSION
-#define PF_VERSION "0"
-#endif
-
-_Thread_local term_breadcrumb term_now;
-
-static int host_fail(const pf_batch *b, uint32_t lane, int status, const char *fmt, ...)
-{
-    term_report *r = b->kernel;
-    char why[700], at[100] = "";
-    va_list ap;
-
-    if (!r || r->status)
-        return status;
-    va_start(ap, fmt);
-    vsnprintf(why, sizeof why, fmt, ap);
-    va_end(ap);
-    if (b->x && lane < b->ld && b->dim == 3)
-        snprintf(at, sizeof at, " at x = (%.6g, %.6g, %.6g)", b->x[lane], b->x[b->ld + lane],
-                 b->x[2 * b->ld + lane]);
-    else if (b->x && lane < b->ld)
-        snprintf(at, sizeof at, " at x = (%.6g, %.6g)", b->x[lane], b->x[b->ld + lane]);
-    r->status = status;
-    snprintf(r->text, sizeof r->text, "term %s.%s%s, t = %.6g: %s", r->plugin, r->term, at, b->t, why);
-    return status;
-}
-
-static const pf_host host = {
-    .size = sizeof(pf_host),
-    .major = PF_ABI_MAJOR,
-    .minor = PF_ABI_MINOR,
-    .sizes = PF_SIZES,
-    .version = PF_VERSION,
-    .fail = host_fail,
-};
 
 static int add_dir(registry *r, const char *dir, error *err)
 {
@@ -99,7 +64,7 @@ static int load_equation(registry *r, term_file *f, void *symbol, error *err)
     const pf_plugin *d;
 
     memcpy(&entry, &symbol, sizeof entry);
-    d = entry(&host, why, sizeof why);
+    d = entry(&term_host, why, sizeof why);
     if (!d)
         return error_set(err, ERR_PLUGIN, "plugin %s declines to start: %s", f->path,
                          *why ? why : "it gives no reason");
@@ -187,9 +152,9 @@ int registry_load(registry *r, const char *path, term_file **out, error *err)
     f->path = arena_strdup(&r->memory, real);
     if (!f->path)
         return error_memory(err, "plugin", 0);
-    term_now = (term_breadcrumb){f->path, "entry", "while it is loaded", -1};
+    process_enter(f->path, "entry", "while it is loaded", -1);
     status = load_file(r, f, err);
-    term_now = (term_breadcrumb){0};
+    process_leave();
     if (status)
         f->refused = arena_strdup(&r->memory, err->text);
     return status;

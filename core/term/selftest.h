@@ -13,16 +13,7 @@ typedef struct selftest {
     void *ctx;
 } selftest;
 
-/* Relative to the norm of the block; complex step is exact to round-off, differences are not. */
-#define SELFTEST_EXACT       1e-12
-#define SELFTEST_DIFFERENCES 1e-6
-
 /* Tests all terms of the plugin, or the one called `only`. */
 int selftest_run(selftest *s, const term_plugin *p, const char *only, error *err);
-
-/* What turns the given block (rows x cols, [row][col][ld]) into the true one: "sign", "factor 2", "transpose",
- * "missing", or "" -- into text. */
-void selftest_diagnose(const double *given, const double *truth, int rows, int cols, size_t ld, char *text,
-                       size_t n);
 
 #endif

@@ -72,8 +72,12 @@ enum term_derivative { TERM_AUTO, TERM_ANALYTIC, TERM_COMPLEX, TERM_FD };
 
 /* Room that term_jacobian needs for ld lanes, in bytes. */
 size_t term_jacobian_room(const pf_term *t, int dim, uint32_t ld);
+/* 1 if the term has what this derivative comes from: a Jacobian by hand, a complex twin.  Differences and TERM_AUTO
+ * are always possible; and a term without unknowns has nothing to derive. */
+int term_has_derivative(const pf_term *t, enum term_derivative how);
 /* d out / d in at every point, by hand, complex step or central differences (TERM_AUTO: the
- * first that the term has).  jac as in pf_jacobian_fn; room from term_jacobian_room, 64-byte aligned. */
+ * first that the term has).  jac as in pf_jacobian_fn; room from term_jacobian_room, 64-byte aligned.
+ * Returns an enum pf_status; PF_FAIL, with the reason in the report, also if the term does not have it. */
 int term_jacobian(const pf_term *t, enum term_derivative how, const pf_batch *b, const double *const *in,
                   double *const *jac, void *room);
 
@@ -108,14 +112,9 @@ typedef struct field_list {
 int fields_add(field_list *l, int dim, const pf_field *f, const char *plugin, error *err);
 int fields_find(const field_list *l, const char *name); /* index or -1 */
 
-/* What a crash handler needs to know: what this thread is computing. */
-typedef struct term_breadcrumb {
-    const char *plugin, *term, *phase;
-    int64_t cell;
-} term_breadcrumb;
-extern _Thread_local term_breadcrumb term_now;
-
-/* Where host->fail leaves its text; pf_batch.kernel points here. */
+/* What this plugflow offers its plugins: pf_batch.host, and at their entry. */
+extern const pf_host term_host;
+/* Where term_host.fail leaves its text; pf_batch.kernel points here. */
 typedef struct term_report {
     const char *plugin, *term;
     int status;

@@ -2,8 +2,8 @@
  *
  * plugin.h -- all that an equation plugin needs to know about plugflow.
  *
- * A plugin is a shared object that includes this header only, links against nothing of
- * plugflow and exports one symbol, pf_plugin_entry.  It describes terms; a term is a
+ * A plugin is a shared object that includes this header (or fluid.h, which brings it), links against nothing
+ * of plugflow and exports one symbol, pf_plugin_entry.  It describes terms; a term is a
  * function of what happens at a point.  The kernel owns mesh, unknowns, weights, matrix.
  *
  * Structs carry their size and grow only at the end; what the older side does not know
@@ -24,7 +24,7 @@ typedef double _Complex pf_complex;
 #endif
 
 #define PF_ABI_MAJOR 1u /* differs: refused                                            */
-#define PF_ABI_MINOR 1u /* plugin newer than kernel: loads if its min_minor allows     */
+#define PF_ABI_MINOR 2u /* plugin newer than kernel: loads if its min_minor allows     */
 #define PF_LANES     8u /* ld is a multiple of it; arrays are 64-byte aligned          */
 #define PF_SIZES     ((uint32_t)(sizeof(double) << 16 | sizeof(void *) << 8 | sizeof(size_t)))
 
@@ -123,6 +123,8 @@ typedef struct pf_param {
     const char *const *choice;     /* PF_T_CHOICE: NULL-terminated names               */
 } pf_param;
 
+struct pf_host;
+
 /* One call: n points, structure of arrays, [component][ld]. */
 typedef struct pf_batch {
     uint32_t size, dim, n, ld;      /* lanes n..ld-1 repeat other lanes: compute freely   */
@@ -137,6 +139,7 @@ typedef struct pf_batch {
     /* PF_PAIR (1.1): one point a pair, in the middle of the gap, m; normal points from the other body, or
      * the wall, to the first.  Sizes: across, m; of a wall infinite, and its density 0. */
     const double *gap, *size_of, *other_size, *other_density;
+    const struct pf_host *host; /* to say why a point fails: return b->host->fail(b, i, PF_RETRY, ...) (1.2) */
 } pf_batch;
 
 /* in[k], out[k]: [component][ld] of slot k.  The residual assigns every output.
@@ -196,7 +199,7 @@ typedef struct pf_plugin {
 typedef struct pf_host {
     uint32_t size, major, minor, sizes;
     const char *version;
-    /* Reports why a point cannot be computed; returns status, so: return host->fail(b, i, PF_RETRY, ...);
+    /* Reports why a point cannot be computed; returns status, so: return b->host->fail(b, i, PF_RETRY, ...);
      * the kernel adds plugin, term, coordinates, time and iteration. */
     int (*fail)(const pf_batch *, uint32_t lane, int status, const char *fmt, ...);
 } pf_host;
@@ -210,6 +213,71 @@ typedef const pf_plugin *pf_entry_fn(const pf_host *, char *err, size_t nerr);
 #endif
 /* Returns the description, or NULL with the reason in err. */
 PF_EXPORT const pf_plugin *pf_plugin_entry(const pf_host *, char *err, size_t nerr);
+
+/* --- Writing a description in C ---
+ *
+ * What is the same in all plugins, so that a plugin says only what is its own.  Lists stand where they
+ * are used, and are counted:
+ *
+ *     static const pf_term diffusion = {
+ *         PF_TERM(diffusion),
+ *         .where = PF_FLUID,
+ *         .flags = PF_LINEAR,
+ *         .doc = "k\\,\\nabla T\\cdot\\nabla s",
+ *         .cite = "Fourier's law",
+ *         PF_IN({"grad_T", "T", PF_GRAD, PF_VECTOR}),
+ *         PF_OUT({"grad_s", "T", PF_GRAD, PF_VECTOR}),
+ *         PF_PARAMS(struct heat, PF_NUMBER(struct heat, conductivity, "W/(m K)", "...", .flags = PF_REQUIRED)),
+ *     };
+ *     static const pf_plugin heat = {
+ *         PF_PLUGIN, .name = "heat", ..., PF_FIELDS({.name = "T", ...}), PF_TERMS(&diffusion),
+ *     };
+ *     PF_ENTRY(heat)                                                                                   */
+
+/* The sizes that tell the kernel which version of the structs this is. */
+#define PF_TERM_SIZES                                                                                              \
+    .size = sizeof(pf_term), .slot_size = sizeof(pf_slot), .param_size = sizeof(pf_param),                         \
+    .example_size = sizeof(pf_example)
+/* A term named after its point function, which twin_real.h and twin_complex.h made for both kinds of numbers. */
+#define PF_TERM(FUNCTION)                                                                                          \
+    PF_TERM_SIZES, .name = #FUNCTION, .residual = FUNCTION##_real, .residual_c = FUNCTION##_complex
+#define PF_PLUGIN                                                                                                  \
+    .size = sizeof(pf_plugin), .major = PF_ABI_MAJOR, .minor = PF_ABI_MINOR, .sizes = PF_SIZES,                    \
+    .field_size = sizeof(pf_field)
+
+#define PF_LIST(TYPE, ...)                                                                                         \
+    (TYPE[])                                                                                                       \
+    {                                                                                                              \
+        __VA_ARGS__                                                                                                \
+    }
+#define PF_COUNT(TYPE, ...) (uint32_t)(sizeof((TYPE[]){__VA_ARGS__}) / sizeof(TYPE))
+#define PF_IN(...)          .in = PF_LIST(const pf_slot, __VA_ARGS__), .n_in = PF_COUNT(pf_slot, __VA_ARGS__)
+#define PF_OUT(...)         .out = PF_LIST(const pf_slot, __VA_ARGS__), .n_out = PF_COUNT(pf_slot, __VA_ARGS__)
+#define PF_EXAMPLES(...)                                                                                           \
+    .example = PF_LIST(const pf_example, __VA_ARGS__), .n_example = PF_COUNT(pf_example, __VA_ARGS__)
+/* STRUCT: the term's own struct, in which the parameters go. */
+#define PF_PARAMS(STRUCT, ...)                                                                                     \
+    .param = PF_LIST(const pf_param, __VA_ARGS__), .n_param = PF_COUNT(pf_param, __VA_ARGS__),                     \
+    .params_bytes = sizeof(STRUCT)
+#define PF_FIELDS(...) .field = PF_LIST(const pf_field, __VA_ARGS__), .n_field = PF_COUNT(pf_field, __VA_ARGS__)
+#define PF_TERMS(...)                                                                                              \
+    .term = PF_LIST(const pf_term *const, __VA_ARGS__), .n_term = PF_COUNT(const pf_term *, __VA_ARGS__)
+
+/* A parameter that is a real number: the key has the name of the struct's member; then default, range, flags. */
+#define PF_NUMBER(STRUCT, MEMBER, UNIT, DOC, ...)                                                                  \
+    {                                                                                                              \
+        .name = #MEMBER, .unit = UNIT, .doc = DOC, .type = PF_T_REAL, .offset = offsetof(STRUCT, MEMBER),          \
+        __VA_ARGS__                                                                                                \
+    }
+#define PF_NOT_NEGATIVE .min = 0, .max = 1e30
+
+/* The exported symbol of a plugin that needs nothing of its host at the start. */
+#define PF_ENTRY(PLUGIN)                                                                                           \
+    const pf_plugin *pf_plugin_entry(const pf_host *host, char *err, size_t nerr)                                  \
+    {                                                                                                              \
+        (void)host, (void)err, (void)nerr;                                                                         \
+        return &(PLUGIN);                                                                                          \
+    }
 
 #ifdef __cplusplus
 }

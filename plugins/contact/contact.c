@@ -3,7 +3,7 @@
  * What keeps bodies apart where the mesh no longer resolves the film between them: a repulsive force
  * of short range and the viscous resistance of the film, between bodies and against walls.  The
  * equations stand in equations.h. */
-#include <plugflow/plugin.h>
+#include <plugflow/fluid.h>
 
 #include <math.h>
 
@@ -39,101 +39,49 @@ static inline double force_of(const pf_batch *b, const struct contact *c, uint32
 #include <plugflow/twin_complex.h>
 #include "equations.h"
 
-#define NUMBER(NAME, UNIT, DOC, FLAGS, STRUCT, MEMBER, DEFAULT)                                                    \
-    {                                                                                                              \
-        .name = NAME, .unit = UNIT, .doc = DOC, .type = PF_T_REAL, .flags = FLAGS,                                 \
-        .offset = offsetof(struct STRUCT, MEMBER), .dflt = DEFAULT, .min = 0, .max = 1e30                          \
-    }
-
-static const pf_param contact_params[] = {
-    NUMBER("density", "kg/m^3", "mass per volume", PF_REQUIRED | PF_SHARED, contact, density, 0),
-    {.name = "gravity",
-     .unit = "m/s^2",
-     .doc = "acceleration of gravity",
-     .type = PF_T_VECTOR,
-     .flags = PF_SHARED,
-     .offset = offsetof(struct contact, gravity)},
-    NUMBER("range", "m", "gap at which the force begins; 0: a fifth of the body", 0, contact, range, 0),
-    NUMBER("strength", "1", "force at contact, in units of the weight under water of a box round the body", 0,
-           contact, strength, 5),
-    NUMBER("force", "N", "force at contact, instead of strength", 0, contact, force, 0),
-};
-
-static const pf_param film_params[] = {
-    NUMBER("viscosity", "Pa s", "dynamic viscosity", PF_REQUIRED | PF_SHARED, film, viscosity, 0),
-    NUMBER("range", "1", "gap below which the mesh does not resolve the film, in cells", 0, film, range, 2),
-    NUMBER("floor", "1", "gap below which the resistance grows no more (roughness), in cells", 0, film, floor, 0.1),
-};
-
-static const pf_field fields[] = {
-    {.name = "U", .unit = "m/s", .doc = "velocity of a particle", .shape = PF_VECTOR, .support = PF_ON_PARTICLE},
-};
-
-static const pf_slot U[] = {{"U", "U", PF_DEFECT, PF_VECTOR}};
-static const pf_slot V[] = {{"V", "U", PF_DEFECT, PF_VECTOR}};
-
 static const pf_term repulsion = {
-    .size = sizeof(pf_term),
-    .flags = PF_LINEAR,
+    PF_TERM(repulsion),
     .where = PF_PAIR,
-    .name = "repulsion",
+    .flags = PF_LINEAR,
     .doc = "-F_0(1-\\mathrm{gap}/\\mathrm{range})^2\\,n\\cdot V",
     .cite = "Glowinski et al. 1999, Int. J. Multiphase Flow 25:755",
-    .out = V,
-    .n_out = 1,
-    .slot_size = sizeof(pf_slot),
-    .param = contact_params,
-    .n_param = sizeof contact_params / sizeof *contact_params,
-    .param_size = sizeof(pf_param),
-    .params_bytes = sizeof(struct contact),
-    .residual = repulsion_real,
-    .residual_c = repulsion_complex,
+    PF_OUT({"V", "U", PF_DEFECT, PF_VECTOR}),
+    PF_PARAMS(struct contact, PF_DENSITY(struct contact), PF_GRAVITY(struct contact),
+              PF_NUMBER(struct contact, range, "m", "gap at which the force begins; 0: a fifth of the body",
+                        PF_NOT_NEGATIVE),
+              PF_NUMBER(struct contact, strength, "1",
+                        "force at contact, in units of the weight under water of a box round the body", .dflt = 5,
+                        PF_NOT_NEGATIVE),
+              PF_NUMBER(struct contact, force, "N", "force at contact, instead of strength", PF_NOT_NEGATIVE)),
 };
 
 static const pf_term lubrication = {
-    .size = sizeof(pf_term),
-    .flags = PF_LINEAR | PF_OPTIONAL,
+    PF_TERM(lubrication),
     .where = PF_PAIR,
-    .name = "lubrication",
+    .flags = PF_LINEAR | PF_OPTIONAL,
     .doc = "6\\pi\\mu R^2\\left(\\frac1{\\mathrm{gap}}-\\frac1{\\mathrm{range}}\\right)(U\\cdot n)(V\\cdot n)"
            "\\ \\text{(3D)},\\ R=\\frac{R_iR_j}{R_i+R_j}",
     .cite = "Kim and Karrila 1991, Microhydrodynamics, ch. 9; 2D: Jeffrey and Onishi 1981, Q. J. Mech. Appl. Math. "
             "34:129",
-    .in = U,
-    .n_in = 1,
-    .out = V,
-    .n_out = 1,
-    .slot_size = sizeof(pf_slot),
-    .param = film_params,
-    .n_param = sizeof film_params / sizeof *film_params,
-    .param_size = sizeof(pf_param),
-    .params_bytes = sizeof(struct film),
-    .residual = lubrication_real,
-    .residual_c = lubrication_complex,
+    PF_IN({"U", "U", PF_DEFECT, PF_VECTOR}),
+    PF_OUT({"V", "U", PF_DEFECT, PF_VECTOR}),
+    PF_PARAMS(struct film, PF_VISCOSITY(struct film),
+              PF_NUMBER(struct film, range, "1", "gap below which the mesh does not resolve the film, in cells",
+                        .dflt = 2, PF_NOT_NEGATIVE),
+              PF_NUMBER(struct film, floor, "1",
+                        "gap below which the resistance grows no more (roughness), in cells", .dflt = 0.1,
+                        PF_NOT_NEGATIVE)),
 };
 
-static const pf_term *const terms[] = {&repulsion, &lubrication};
-
 static const pf_plugin contact = {
-    .size = sizeof(pf_plugin),
-    .major = PF_ABI_MAJOR,
-    .minor = PF_ABI_MINOR,
+    PF_PLUGIN,
     .min_minor = 1,
-    .sizes = PF_SIZES,
     .name = "contact",
     .version = "1.0",
     .author = "plugflow",
     .license = "GPL-3.0-or-later",
     .doc = "short-range forces between bodies and walls",
-    .term = terms,
-    .n_term = sizeof terms / sizeof *terms,
-    .field = fields,
-    .n_field = 1,
-    .field_size = sizeof(pf_field),
+    PF_FIELDS(PF_FIELD_BODY_VELOCITY()),
+    PF_TERMS(&repulsion, &lubrication),
 };
-
-PF_EXPORT const pf_plugin *pf_plugin_entry(const pf_host *host, char *err, size_t nerr)
-{
-    (void)host, (void)err, (void)nerr;
-    return &contact;
-}
+PF_ENTRY(contact)

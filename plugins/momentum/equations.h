@@ -8,7 +8,7 @@
 /* rho du/dt . v */
 static int F(inertia)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const struct fluid *f = b->params;
+    const pf_fluid *f = b->params;
     const NUM *restrict u_t = in[0];
     NUM *restrict v = out[0];
 
@@ -21,7 +21,7 @@ static int F(inertia)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 /* rho (u . grad) u . v */
 static int F(convection)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const struct fluid *f = b->params;
+    const pf_fluid *f = b->params;
     const NUM *restrict u = in[0], *restrict grad_u = in[1];
     NUM *restrict v = out[0];
     const uint32_t d = b->dim;
@@ -39,7 +39,7 @@ static int F(convection)(const pf_batch *b, const NUM *const *in, NUM *const *ou
 /* (2 mu D(u) - p I) : grad v */
 static int F(stress)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const struct fluid *f = b->params;
+    const pf_fluid *f = b->params;
     const NUM *restrict grad_u = in[0], *restrict p = in[1];
     NUM *restrict grad_v = out[0];
     const uint32_t d = b->dim;
@@ -56,13 +56,13 @@ static int F(stress)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 /* -(rho g + f) . v; without rho g if p is the reduced pressure */
 static int F(body_force)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const struct fluid *f = b->params;
+    const pf_fluid *f = b->params;
     const NUM *restrict force = in[0];
     NUM *restrict v = out[0];
 
     for (uint32_t a = 0; a < b->dim; a++)
         PF_LANES_OF (b, i)
-            v[a * LD + i] = -((f->reduced ? 0 : f->density * f->gravity[a]) + force[a * LD + i]);
+            v[a * LD + i] = -((f->reduced_pressure ? 0 : f->density * f->gravity[a]) + force[a * LD + i]);
     return PF_OK;
 }
 

@@ -8,7 +8,7 @@
 /* rho_P (dU/dt - g) . V */
 static int F(translation)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const struct rigid_body *f = b->params;
+    const pf_fluid *f = b->params;
     const NUM *restrict U_t = in[0];
     NUM *restrict V = out[0];
 
@@ -64,7 +64,7 @@ static int F(rotation)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 /* -rho_f (dU/dt - g) . V - rho_f r x (dw/dt x r + w x (w x r)) . xi: the fluid inside, which moves along */
 static int F(displaced)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const struct rigid_body *f = b->params;
+    const pf_fluid *f = b->params;
     const NUM *restrict U_t = in[0];
     NUM *restrict V = out[0], *restrict xi = out[1];
 
@@ -84,7 +84,7 @@ static int F(displaced)(const pf_batch *b, const NUM *const *in, NUM *const *out
 /* rho_f g . V: the weight of the fluid displaced, all that is left of it if the fluid inside is none */
 static int F(buoyancy)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const struct rigid_body *f = b->params;
+    const pf_fluid *f = b->params;
     NUM *restrict V = out[0];
 
     (void)in;

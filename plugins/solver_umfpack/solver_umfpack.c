@@ -2,8 +2,8 @@
  *
  * Sparse LU by UMFPACK (T. A. Davis, Algorithm 832, 2004), symmetric strategy.
  *
- * The fill-reducing order comes from METIS on the graph of mesh nodes (all unknowns of a node
- * as one); CHOLMOD counts the fill it gives, so that memory is known before the factorisation.
+ * The fill-reducing order comes from METIS on the graph of the matrix; CHOLMOD counts the fill
+ * it gives, so that memory is known before the factorisation.
  * The matrix comes by rows, UMFPACK wants columns: it factors A^T and solves with UMFPACK_At. */
 #include <plugflow/solver.h>
 
@@ -12,6 +12,8 @@
 #include <umfpack.h>
 
 #include <dlfcn.h>
+#include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,58 +37,80 @@ static int fail(char *err, size_t nerr, int status, const char *what, double umf
     return status;
 }
 
-static void blas_threads(int n)
+/* OpenBLAS has one number of threads for the whole process.  It is ours during a call of UMFPACK only:
+ *
+ *     before = blas_threads(n);  ...  blas_threads(before);
+ *
+ * Sets it and returns what it was; 0, and nothing else, for another BLAS and for n = 0. */
+static int blas_threads(int n)
 {
+    int (*get)(void);
     void (*set)(int);
-    void *symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads");
+    void *get_symbol = dlsym(RTLD_DEFAULT, "openblas_get_num_threads");
+    void *set_symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads");
+    int before;
 
-    memcpy(&set, &symbol, sizeof set);
-    if (set)
+    if (!get_symbol || !set_symbol || n <= 0)
+        return 0;
+    memcpy(&get, &get_symbol, sizeof get);
+    memcpy(&set, &set_symbol, sizeof set);
+    before = get();
+    if (n != before)
         set(n);
+    return before;
 }
 
-/* Order of the nodes by METIS; perm[k] = k-th node to eliminate. */
-static int order_nodes(const pf_csr *a, idx_t *perm)
+/* METIS_NodeND that leaves handlers of signals as they were.
+ *
+ * While it runs, METIS has its own for SIGTERM and SIGABRT (GKlib, gk_sigtrap), by which it also ends itself where
+ * it runs out of memory; then it puts the old ones back by signal(), which loses their flags, and as it leaves its
+ * handler by longjmp, the signal may stay blocked.  A SIGTERM from outside makes it fail and would be lost: it is
+ * raised again for whom it was meant.  But METIS jumps out of whatever that signal interrupts, malloc too, so a
+ * program should block SIGTERM in all its threads and take it in one that waits for it; plugflow does
+ * (core/cli/signals.c). To block it here is no help: then it comes to another thread, in which METIS has nowhere to
+ * jump to. */
+static int order(idx_t n, idx_t *start, idx_t *to, idx_t *perm, idx_t *inverse)
 {
-    idx_t n = (idx_t)a->n_node, *start = NULL, *to = NULL, *inverse = NULL, options[METIS_NOPTIONS];
-    int64_t *node_of = malloc((size_t)a->n * sizeof *node_of), edges = 0;
-    int ok = 0;
+    struct sigaction on_term, on_abort;
+    sigset_t blocked;
+    int status;
 
-    for (int64_t g = 0; node_of && g < n; g++)
-        for (int64_t r = a->node[g]; r < a->node[g + 1]; r++)
-            node_of[r] = g;
-    start = malloc(((size_t)n + 1) * sizeof *start);
-    inverse = malloc((size_t)n * sizeof *inverse);
-    for (int pass = 0; pass < 2 && node_of && start && inverse; pass++) {
-        edges = 0;
-        for (int64_t g = 0; g < n; g++) {
-            int64_t r = a->node[g], last = g;
+    sigaction(SIGTERM, NULL, &on_term);
+    sigaction(SIGABRT, NULL, &on_abort);
+    pthread_sigmask(SIG_SETMASK, NULL, &blocked);
+    status = METIS_NodeND(&n, start, to, NULL, NULL, perm, inverse);
+    sigaction(SIGTERM, &on_term, NULL);
+    sigaction(SIGABRT, &on_abort, NULL);
+    pthread_sigmask(SIG_SETMASK, &blocked, NULL);
+    if (status == METIS_ERROR)
+        raise(SIGTERM);
+    return status == METIS_OK;
+}
 
-            start[g] = (idx_t)edges;
-            for (int64_t k = a->row[r]; k < a->row[r + 1]; k++) {
-                int64_t h = node_of[a->col[k]];
+/* Order of the unknowns by METIS on the graph of the matrix, whose pattern is symmetric; perm[k] = k-th to
+ * eliminate. Returns 0 if METIS finds none: no memory, too many entries for its integers. */
+static int order_graph(const pf_csr *a, SuiteSparse_long *perm)
+{
+    idx_t *start = malloc(((size_t)a->n + 1) * sizeof *start),
+          *order_of = malloc(2 * (size_t)a->n * sizeof *order_of);
+    idx_t *to = malloc((size_t)a->row[a->n] * sizeof *to), edges = 0;
+    int ok = start && order_of && to && a->row[a->n] <= IDX_MAX;
 
-                if (h == g || (h == last && k > a->row[r]))
-                    continue;
-                last = h;
-                if (pass)
-                    to[edges] = (idx_t)h;
-                edges++;
-            }
-        }
-        start[n] = (idx_t)edges;
-        if (!pass && !(to = malloc((size_t)(edges > 0 ? edges : 1) * sizeof *to)))
-            break;
+    for (int64_t r = 0; ok && r < a->n; r++) {
+        order_of[r] = (idx_t)r;
+        start[r] = edges;
+        for (int64_t k = a->row[r]; k < a->row[r + 1]; k++)
+            if (a->col[k] != r)
+                to[edges++] = (idx_t)a->col[k];
     }
-    if (to) {
-        METIS_SetDefaultOptions(options);
-        options[METIS_OPTION_SEED] = 1;
-        ok = METIS_NodeND(&n, start, to, NULL, options, perm, inverse) == METIS_OK;
-    }
-    free(node_of);
+    if (ok)
+        start[a->n] = edges;
+    ok = ok && (edges == 0 || order((idx_t)a->n, start, to, order_of, order_of + a->n));
+    for (int64_t k = 0; ok && k < a->n; k++)
+        perm[k] = order_of[k];
     free(start);
+    free(order_of);
     free(to);
-    free(inverse);
     return ok;
 }
 
@@ -97,47 +121,45 @@ static int order_unknowns(SuiteSparse_long n, SuiteSparse_long n_col, SuiteSpars
 {
     const umfpack *u = arg;
     const pf_csr *a = &u->a;
-    idx_t *node = malloc((size_t)a->n_node * sizeof *node);
     cholmod_common cm;
-    cholmod_sparse m = {0};
-    cholmod_factor *l = NULL;
-    int ok = n == a->n && n == n_col && symmetric && node && order_nodes(a, node);
+    cholmod_sparse m = {.nrow = (size_t)n,
+                        .ncol = (size_t)n,
+                        .nzmax = (size_t)a->row[a->n],
+                        .p = (void *)a->row,
+                        .i = (void *)a->col,
+                        .stype = 1,
+                        .itype = CHOLMOD_LONG,
+                        .xtype = CHOLMOD_PATTERN,
+                        .dtype = CHOLMOD_DOUBLE,
+                        .sorted = 1,
+                        .packed = 1};
+    cholmod_factor *l;
+    int ordered;
 
     (void)ap;
     (void)ai;
-    for (int64_t k = 0, at = 0; ok && k < a->n_node; k++)
-        for (int64_t r = a->node[node[k]]; r < a->node[node[k] + 1]; r++)
-            perm[at++] = r;
-    free(node);
-    if (!ok)
+    if (n != a->n || n != n_col || !symmetric)
         return 0;
+    ordered = order_graph(a, perm);
     cholmod_l_start(&cm);
     cm.nmethods = 1;
-    cm.method[0].ordering = CHOLMOD_GIVEN;
+    cm.method[0].ordering = ordered ? CHOLMOD_GIVEN : CHOLMOD_AMD; /* AMD needs less memory, and leaves more fill */
     cm.supernodal = CHOLMOD_SIMPLICIAL;
-    m.nrow = m.ncol = (size_t)n;
-    m.nzmax = (size_t)a->row[n];
-    m.p = (void *)a->row;
-    m.i = (void *)a->col;
-    m.stype = 1;
-    m.itype = CHOLMOD_LONG;
-    m.xtype = CHOLMOD_PATTERN;
-    m.dtype = CHOLMOD_DOUBLE;
-    m.sorted = m.packed = 1;
-    l = cholmod_l_analyze_p(&m, perm, NULL, 0, &cm);
+    l = cholmod_l_analyze_p(&m, ordered ? perm : NULL, NULL, 0, &cm);
     if (l) {
+        const SuiteSparse_long *count = l->ColCount;
+
         memcpy(perm, l->Perm, (size_t)n * sizeof *perm);
         info[0] = 0;
         for (int64_t k = 0; k < n; k++)
-            info[0] = ((SuiteSparse_long *)l->ColCount)[k] > info[0] ? (double)((SuiteSparse_long *)l->ColCount)[k]
-                                                                     : info[0];
+            info[0] = count[k] > info[0] ? (double)count[k] : info[0];
         info[1] = cm.lnz;
         info[2] = cm.fl;
     }
-    ok = l != NULL;
+    ordered = l != NULL;
     cholmod_l_free_factor(&l, &cm);
     cholmod_l_finish(&cm);
-    return ok;
+    return ordered;
 }
 
 static int create(void **self, int n_thread, char *err, size_t nerr)
@@ -150,10 +172,9 @@ static int create(void **self, int n_thread, char *err, size_t nerr)
     u->n_thread = n_thread;
     umfpack_dl_defaults(u->control);
     u->control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-    u->control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
+    u->control[UMFPACK_ORDERING] = UMFPACK_ORDERING_USER;
     u->control[UMFPACK_SINGLETONS] = 0;
     u->control[UMFPACK_IRSTEP] = 0;
-    blas_threads(1);
     return PF_SOLVER_OK;
 }
 
@@ -185,13 +206,14 @@ static int setup(void *self, const pf_csr *matrix, char *err, size_t nerr)
 {
     umfpack *u = self;
     SuiteSparse_long status;
+    int before;
 
     u->a = *matrix;
     umfpack_dl_free_numeric(&u->numeric);
-    blas_threads(u->flops > THREADED_FLOPS ? u->n_thread : 1);
+    before = blas_threads(u->flops > THREADED_FLOPS ? u->n_thread : 1);
     status =
         umfpack_dl_numeric(matrix->row, matrix->col, matrix->value, u->symbolic, &u->numeric, u->control, NULL);
-    blas_threads(1);
+    blas_threads(before);
     if (status == UMFPACK_WARNING_singular_matrix)
         return fail(err, nerr, PF_SOLVER_SINGULAR, "the matrix is singular", (double)status);
     if (status != UMFPACK_OK)
@@ -205,9 +227,11 @@ static int setup(void *self, const pf_csr *matrix, char *err, size_t nerr)
 static int solve(void *self, const double *b, double *x, char *err, size_t nerr)
 {
     umfpack *u = self;
+    const int before = blas_threads(1);
     SuiteSparse_long status =
         umfpack_dl_solve(UMFPACK_At, u->a.row, u->a.col, u->a.value, x, b, u->numeric, u->control, NULL);
 
+    blas_threads(before);
     return status == UMFPACK_OK ? PF_SOLVER_OK
                                 : fail(err, nerr, PF_SOLVER_ERROR, "solution failed", (double)status);
 }
@@ -226,7 +250,7 @@ static const pf_solver solver = {
     .major = PF_SOLVER_MAJOR,
     .name = "solver_umfpack",
     .version = "1.0",
-    .doc = "sparse LU (UMFPACK, symmetric strategy, METIS on the node graph)",
+    .doc = "sparse LU (UMFPACK, symmetric strategy, METIS)",
     .create = create,
     .analyze = analyze,
     .setup = setup,

@@ -200,6 +200,7 @@ RESIDUAL(unrepeatable)
 RESIDUAL(neighbour)
 RESIDUAL(batch_maximum)
 RESIDUAL(fails)
+RESIDUAL(host_of_batch)
 RESIDUAL(fails_silently)
 RESIDUAL(crash)
 JACOBIAN(sign)
@@ -279,6 +280,7 @@ static const struct alteration {
     A(neighbour),
     A(batch_maximum),
     A(fails),
+    A(host_of_batch),
     A(fails_silently),
     A(crash),
     A(sign),

@@ -92,6 +92,13 @@ static int fails_residual(const pf_batch *b, const double *const *in, double *co
     return host->fail(b, 2, PF_FAIL, "density %g is not possible", -4.5);
 }
 
+/* 1.2: without a host kept from the entry. */
+static int host_of_batch_residual(const pf_batch *b, const double *const *in, double *const *out)
+{
+    convection_real(b, in, out);
+    return b->host->fail(b, 2, PF_FAIL, "the host came with the batch");
+}
+
 static int fails_silently_residual(const pf_batch *b, const double *const *in, double *const *out)
 {
     convection_real(b, in, out);

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Strings, arenas, diagnoses of Jacobian blocks. */
+ * Strings, arenas, random numbers, breadcrumbs, diagnoses of Jacobian blocks. */
 #include "base/arena.h"
+#include "base/process.h"
+#include "base/random.h"
 #include "base/text.h"
-#include "term/selftest.h"
+#include "term/block.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -118,6 +120,41 @@ static void arena_memory_is_zeroed_aligned_and_refuses_overflow(void **state)
     arena_free(&a);
 }
 
+/* The reference numbers come from integer arithmetic elsewhere. */
+static void random_numbers_are_those_of_xorshift64star(void **state)
+{
+    const unsigned long long expected[2][3] = {{0x1cd4f43d462f79, 0x14e854f4361af9, 0x13ddb1690cc4c1},
+                                               {0x0e2011809ec061, 0x024d8e1e4b8ccc, 0x12faf834f20188}};
+
+    (void)state;
+    assert_true(random_start(0) == RANDOM_SEED);
+    for (int s = 0; s < 2; s++) {
+        unsigned long long random = random_start(s ? 7 : 0);
+
+        for (int i = 0; i < 3; i++)
+            assert_true(random_next(&random) == (double)expected[s][i] * 0x1p-53);
+    }
+}
+
+static void every_thread_has_a_breadcrumb_of_its_own(void **state)
+{
+    int wrong = 0;
+
+    (void)state;
+#pragma omp parallel num_threads(4) reduction(+ : wrong)
+    {
+        const int me = omp_get_thread_num();
+
+        process_enter("plugin", "term", "residual", me);
+#pragma omp barrier
+        wrong += process_now().cell != me || process.thread[me].now.cell != me;
+        process_leave();
+        wrong += process_now().plugin != NULL;
+    }
+    assert_int_equal(wrong, 0);
+    assert_int_equal((uintptr_t)&process.thread[1] % 64, 0);
+}
+
 static void diagnosis_names_sign_factor_transpose_and_missing(void **state)
 {
     const double truth[4] = {1, 2, 3, 4}, minus[4] = {-1, -2, -3, -4}, twice[4] = {2, 4, 6, 8},
@@ -126,15 +163,15 @@ static void diagnosis_names_sign_factor_transpose_and_missing(void **state)
     char text[200];
 
     (void)state;
-    selftest_diagnose(minus, truth, 2, 2, 1, text, sizeof text);
+    block_diagnose(minus, truth, 2, 2, 1, text, sizeof text);
     assert_non_null(strstr(text, "sign"));
-    selftest_diagnose(twice, truth, 2, 2, 1, text, sizeof text);
+    block_diagnose(twice, truth, 2, 2, 1, text, sizeof text);
     assert_non_null(strstr(text, "factor"));
-    selftest_diagnose(turned, truth, 2, 2, 1, text, sizeof text);
+    block_diagnose(turned, truth, 2, 2, 1, text, sizeof text);
     assert_non_null(strstr(text, "transpose"));
-    selftest_diagnose(none, truth, 2, 2, 1, text, sizeof text);
+    block_diagnose(none, truth, 2, 2, 1, text, sizeof text);
     assert_non_null(strstr(text, "missing"));
-    selftest_diagnose(wrong, truth, 2, 2, 1, text, sizeof text);
+    block_diagnose(wrong, truth, 2, 2, 1, text, sizeof text);
     assert_non_null(strstr(text, "wrong by"));
 }
 
@@ -149,6 +186,8 @@ int main(void)
         cmocka_unit_test(numbers_read_back_as_the_same_bits),
         cmocka_unit_test(what_is_not_finite_becomes_null),
         cmocka_unit_test(arena_memory_is_zeroed_aligned_and_refuses_overflow),
+        cmocka_unit_test(random_numbers_are_those_of_xorshift64star),
+        cmocka_unit_test(every_thread_has_a_breadcrumb_of_its_own),
         cmocka_unit_test(diagnosis_names_sign_factor_transpose_and_missing),
     };
 

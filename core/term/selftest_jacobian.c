@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The Jacobian of a term, block by block against complex step (or differences), with a guess at what is wrong; the
+ * couplings that it denies; linearity where it claims it. */
+#include "term/selftest_parts.h"
+
+#include "base/process.h"
+#include "term/block.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Relative to the norm of the block; complex step is exact to round-off, differences are not. */
+#define EXACT       1e-12
+#define DIFFERENCES 1e-6
+
+static void compare_block(bench *k, uint32_t o, uint32_t i, const char *how, double tolerance)
+{
+    const pf_slot *out = &k->t->out[o], *in = &k->t->in[i];
+    int rows = bench_components(k, out), cols = bench_components(k, in);
+    const double *given = k->jac[o * k->t->n_in + i], *truth = k->truth[o * k->t->n_in + i];
+    size_t n = (size_t)(rows * cols * BENCH_LD);
+    double size = block_norm(truth, n), e = block_distance(given, truth, 1, n);
+    char why[200];
+
+    if (e <= tolerance * size || (size == 0 && e == 0)) {
+        bench_line(k, 1, "%s  d %s / d %s in %dD: analytic = %s to %.1e", k->t->name, out->name, in->name, k->dim,
+                   how, size > 0 ? e / size : 0);
+        return;
+    }
+    block_diagnose(given, truth, rows, cols, BENCH_LD, why, sizeof why);
+    for (int kept = 0; kept < 2 && in->shape == PF_TENSOR && strncmp(why, "wrong", 5) == 0; kept++)
+        if (block_exchanged_distance(given, truth, rows, k->dim, BENCH_LD, kept) < 1e-6 * size)
+            snprintf(why, sizeof why, "transpose: the %stwo indices of %s %s", kept ? "part with the " : "",
+                     in->name, kept ? "exchanged is missing" : "are exchanged");
+    bench_line(k, 0, "%s  d %s / d %s in %dD: %s", k->t->name, out->name, in->name, k->dim, why);
+}
+
+static int derive(bench *k, enum term_derivative how, double **jac, const char *what)
+{
+    const pf_term *t = k->t;
+    double *given[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
+    int status;
+
+    for (uint32_t o = 0; o < t->n_out; o++)
+        for (uint32_t i = 0; i < t->n_in; i++) {
+            memset(jac[o * t->n_in + i], 0,
+                   (size_t)(bench_components(k, &t->out[o]) * bench_components(k, &t->in[i]) * BENCH_LD) *
+                       sizeof(double));
+            given[o * t->n_in + i] = term_is_unknown(&t->in[i]) ? jac[o * t->n_in + i] : NULL;
+        }
+    k->report.status = 0;
+    process_enter(k->p->d.name, t->name, what, -1);
+    status = term_jacobian(t, how, &k->b, (const double *const *)k->in, given, k->room);
+    process_leave();
+    if (status)
+        bench_line(k, 0, "%s  %s returned %d: %s", t->name, what, status,
+                   k->report.status ? k->report.text : "without saying why");
+    return status == 0;
+}
+
+/* 1 if the complex step (in truth) and differences agree: the twin is an analytic function. */
+static int twin_derives(bench *k)
+{
+    const pf_term *t = k->t;
+
+    if (!derive(k, TERM_FD, k->jac, "differences"))
+        return 0;
+    for (uint32_t o = 0; o < t->n_out; o++)
+        for (uint32_t i = 0; i < t->n_in; i++) {
+            size_t n = (size_t)(bench_components(k, &t->out[o]) * bench_components(k, &t->in[i]) * BENCH_LD);
+            const double *a = k->truth[o * t->n_in + i], *b = k->jac[o * t->n_in + i];
+
+            if (term_is_unknown(&t->in[i]) && !(block_distance(a, b, 1, n) <= 1e-3 * block_norm(b, n) + 1e-6)) {
+                bench_line(
+                    k, 0,
+                    "%s  d %s / d %s in %dD: residual_c does not carry the derivative (norm %.6g, by differences "
+                    "%.6g); has it fabs, a real part or a real variable in it?",
+                    t->name, t->out[o].name, t->in[i].name, k->dim, block_norm(a, n), block_norm(b, n));
+                return 0;
+            }
+        }
+    return 1;
+}
+
+static void test_jacobian(bench *k)
+{
+    const pf_term *t = k->t;
+    const char *how = t->residual_c ? "complex step" : "differences";
+    int unknowns = 0;
+
+    for (uint32_t i = 0; i < t->n_in; i++)
+        unknowns += term_is_unknown(&t->in[i]);
+    if (!unknowns || !derive(k, t->residual_c ? TERM_COMPLEX : TERM_FD, k->truth, how))
+        return;
+    if (t->residual_c && !twin_derives(k))
+        return;
+    for (uint32_t o = 0; o < t->n_out && t->depends; o++)
+        for (uint32_t i = 0; i < t->n_in; i++)
+            if (!t->depends[o * t->n_in + i] &&
+                block_norm(k->truth[o * t->n_in + i], (size_t)(bench_components(k, &t->out[o]) *
+                                                               bench_components(k, &t->in[i]) * BENCH_LD)) > 0)
+                bench_line(
+                    k, 0,
+                    "%s  \"%s\" depends on \"%s\", but depends[%u][%u] says it does not: undeclared dependency",
+                    t->name, t->out[o].name, t->in[i].name, o, i);
+    if (t->jacobian && !derive(k, TERM_ANALYTIC, k->jac, "Jacobian"))
+        return;
+    for (uint32_t o = 0; o < t->n_out; o++)
+        for (uint32_t i = 0; i < t->n_in; i++)
+            if (term_is_unknown(&t->in[i]) && t->jacobian)
+                compare_block(k, o, i, how, t->residual_c ? EXACT : DIFFERENCES);
+            else if (term_is_unknown(&t->in[i]))
+                bench_line(k, 1, "%s  d %s / d %s in %dD: by %s", t->name, t->out[o].name, t->in[i].name, k->dim,
+                           how);
+}
+
+static void test_linearity(bench *k)
+{
+    const pf_term *t = k->t;
+    enum term_derivative how = t->residual_c ? TERM_COMPLEX : TERM_FD;
+
+    if (!(t->flags & PF_LINEAR))
+        return;
+    if (!derive(k, how, k->truth, "derivative"))
+        return;
+    bench_random_inputs(k);
+    if (!derive(k, how, k->jac, "derivative"))
+        return;
+    for (uint32_t j = 0; j < t->n_out * t->n_in; j++) {
+        size_t n = (size_t)(bench_components(k, &t->out[j / t->n_in]) * bench_components(k, &t->in[j % t->n_in]) *
+                            BENCH_LD);
+
+        if (term_is_unknown(&t->in[j % t->n_in]) &&
+            block_distance(k->jac[j], k->truth[j], 1, n) >
+                (t->residual_c ? 1e-12 : 1e-5) * (block_norm(k->truth[j], n) + 1e-300)) {
+            bench_line(k, 0, "%s  is flagged PF_LINEAR, but d %s / d %s changes with the state", t->name,
+                       t->out[j / t->n_in].name, t->in[j % t->n_in].name);
+            return;
+        }
+    }
+    bench_line(k, 1, "%s  linear in %dD, as flagged", t->name, k->dim);
+}
+
+void selftest_jacobian(bench *k)
+{
+    test_jacobian(k);
+    test_linearity(k);
+}
