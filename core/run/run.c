@@ -117,6 +117,17 @@ static void warn_singular(run *r, const newton_report *report)
     r->warned_singular |= report->singular;
 }
 
+/* Says so, once, if Newton's method converges as it does with a wrong matrix. */
+static void warn_order(run *r, const newton_report *report)
+{
+    if (report->linear_only && !r->warned_order)
+        say(r,
+            "  warning: Newton converges with order %.1f only: some Jacobian block is wrong or missing; plugflow "
+            "jacobian %s compares them one by one",
+            report->order, r->p->c->path);
+    r->warned_order |= report->linear_only;
+}
+
 static int steady(run *r, error *err)
 {
     problem *p = r->p;
@@ -133,10 +144,13 @@ static int steady(run *r, error *err)
     r->result->newton_ratio = report.ratio;
     r->result->steps = 1;
     TRY(log_solve(r, 0, 0, &report, err));
+    warn_order(r, &report);
     if (!report.converged && p->system.stop && *p->system.stop) {
         r->result->status = "interrupted";
         return 0;
     }
+    if (!report.converged && report.singular)
+        return error_set(err, ERR_CONVERGE, "no steady state found: %s", report.why);
     if (!report.converged)
         return error_set(err, ERR_CONVERGE,
                          "no steady state found: %s; refine the mesh, start from an easier problem (solve { "
@@ -161,9 +175,11 @@ static int one_step(run *r, stepper *s, double next, error *err)
 {
     problem *p = r->p;
     run_progress progress;
-    int before = s->newton_iterations;
+    int before = s->newton_iterations, status;
 
-    TRY(stepper_advance(s, next - s->t, err));
+    status = stepper_advance(s, next - s->t, err);
+    warn_order(r, &s->report);
+    TRY(status);
     r->result->steps++;
     r->result->newton_iterations = s->newton_iterations;
     r->result->halved = s->n_halved;

@@ -50,6 +50,8 @@ int output_summary(run *r, error *err)
         number(&t, "cuts_with_rootless_cells", (double)r->p->rootless);
     number(&t, "newton_iterations", q->newton_iterations);
     number(&t, "newton_order", q->newton_order);
+    number(&t, "evaluations", (double)p->system.evaluations);
+    number(&t, "matrices", (double)p->system.matrices);
     number(&t, "gmres_iterations", q->gmres_iterations);
     number(&t, "factorisations", q->factorisations);
     number(&t, "worst_linear_residual", l->worst_residual);
