@@ -25,8 +25,9 @@ static int is_dummy(const newton_system *s, int64_t i)
     return s->space->idle[d] || (s->gauge.free[f] && s->gauge.pin[f] == i);
 }
 
-/* size[i]: what the row would make of its unknown if nothing balanced it, 0 where the diagonal all but vanishes. */
-static void might_be(const newton_system *s, const double *x, double *size)
+/* might[i]: what the row would make of its unknown if nothing balanced it, 0 where the diagonal all but vanishes;
+ * size [n_free] of the unknowns. */
+static void might_be(const newton_system *s, const double *size, double *might)
 {
     const space *sp = s->space;
     const double *a = s->linear.value;
@@ -35,43 +36,56 @@ static void might_be(const newton_system *s, const double *x, double *size)
         double sum = fabs(s->residual[sp->dof_of[i]]), diagonal = 0, largest = 0;
 
         for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++) {
-            sum += fabs(a[k] * x[sp->dof_of[sp->col[k]]]);
-            largest = fmax(largest, fabs(a[k]));
-            if (sp->col[k] == i)
-                diagonal = fabs(a[k]);
+            double v = fabs(a[k]);
+
+            sum += v * size[sp->col[k]];
+            largest = v > largest ? v : largest;
+            diagonal = sp->col[k] == i ? v : diagonal;
         }
-        size[i] = diagonal > 1e-8 * largest ? sum / diagonal : 0;
+        might[i] = diagonal > 1e-8 * largest ? sum / diagonal : 0;
     }
+}
+
+/* Adds to the sizes of unknowns what they might be if their field vanishes, and a step; none counts for less than
+ * the mean of its field. */
+static void enlarge(newton_system *s, const double *might, const double *step, double *size)
+{
+    const space *sp = s->space;
+    double most[SPACE_MAX_FIELDS], most_might[SPACE_MAX_FIELDS], mean[SPACE_MAX_FIELDS];
+    int64_t n[SPACE_MAX_FIELDS];
+
+    vector_largest_free(sp, size, most);
+    vector_largest_free(sp, might, most_might);
+    for (int64_t i = 0; i < sp->n_free; i++) {
+        int f = sp->dof_field[sp->dof_of[i]];
+
+        size[i] += (most[f] < VANISHES * most_might[f] ? might[i] : 0) + (step ? fabs(step[i]) : 0);
+    }
+    vector_count(sp, n);
+    vector_squares_free(sp, size, mean);
+    for (int f = 0; f < sp->n_field; f++) {
+        s->vanishes[f] = most[f] < VANISHES * most_might[f] || most[f] == 0;
+        mean[f] = n[f] ? sqrt(mean[f] / (double)n[f]) : 0;
+    }
+    for (int64_t i = 0; i < sp->n_free; i++)
+        size[i] = fmax(size[i], mean[sp->dof_field[sp->dof_of[i]]]);
 }
 
 void scale_fields(newton_system *s, const double *x, const double *step, double *scale)
 {
     const space *sp = s->space;
     const double *a = s->linear.value;
-    double *size = s->scale, *row = s->work, most[SPACE_MAX_FIELDS], might[SPACE_MAX_FIELDS],
-           mean[SPACE_MAX_FIELDS];
-    int64_t n[SPACE_MAX_FIELDS];
+    double *size = s->scale, *row = s->work;
 
-    might_be(s, x, size);
-    vector_largest(sp, x, most);
-    vector_largest_free(sp, size, might);
-    for (int64_t i = 0; i < sp->n_free; i++) {
-        int f = sp->dof_field[sp->dof_of[i]];
-
-        size[i] =
-            fabs(x[sp->dof_of[i]]) + (most[f] < VANISHES * might[f] ? size[i] : 0) + (step ? fabs(step[i]) : 0);
-    }
-    vector_count(sp, n);
-    vector_squares_free(sp, size, mean);
-    for (int f = 0; f < sp->n_field; f++) {
-        s->vanishes[f] = most[f] < VANISHES * might[f] || most[f] == 0;
-        mean[f] = n[f] ? sqrt(mean[f] / (double)n[f]) : 0; /* no component counts for less than this */
-    }
+    for (int64_t i = 0; i < sp->n_free; i++)
+        size[i] = fabs(x[sp->dof_of[i]]);
+    might_be(s, size, row);
+    enlarge(s, row, step, size);
     for (int64_t i = 0; i < sp->n_free; i++) {
         double sum = 0;
 
         for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++)
-            sum += fabs(a[k]) * fmax(size[sp->col[k]], mean[sp->dof_field[sp->dof_of[sp->col[k]]]]);
+            sum += fabs(a[k]) * size[sp->col[k]];
         row[i] = is_dummy(s, i) ? 0 : sum;
     }
     vector_squares_free(sp, row, scale);

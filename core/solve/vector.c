@@ -73,16 +73,6 @@ void vector_squares_free(const space *s, const double *free_, double *out)
         out[s->dof_field[s->dof_of[i]]] += free_[i] * free_[i];
 }
 
-void vector_largest(const space *s, const double *dof, double *out)
-{
-    memset(out, 0, (size_t)s->n_field * sizeof *out);
-    for (int64_t i = 0; i < s->n_free; i++) {
-        int64_t d = s->dof_of[i];
-
-        out[s->dof_field[d]] = fmax(out[s->dof_field[d]], fabs(dof[d]));
-    }
-}
-
 void vector_largest_free(const space *s, const double *free_, double *out)
 {
     memset(out, 0, (size_t)s->n_field * sizeof *out);

@@ -30,7 +30,7 @@ void vector_step(const space *s, double length, const double *free_, double *dof
 void vector_count(const space *s, int64_t *out);
 void vector_squares(const space *s, const double *dof, double *out); /* sum of squares */
 void vector_squares_free(const space *s, const double *free_, double *out);
-void vector_largest(const space *s, const double *dof, double *out); /* largest |entry|; NaN is passed over */
+/* The largest |entry|; NaN is passed over. */
 void vector_largest_free(const space *s, const double *free_, double *out);
 
 int vector_field_prescribed(const space *s, int field); /* whether any of its unknowns is */
