@@ -181,8 +181,8 @@ int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int 
 
 /* residual[n_dof] (of all unknowns, fixed ones too: their rows are reactions) and, unless NULL,
  * value[nnz] of the matrix over free unknowns; both are overwritten.  With `diagnose` every
- * term's output is checked for NaN and infinity and the first culprit is named.
- * ERR_PLUGIN or ERR_CONVERGE (err->retry) if a term fails. */
+ * term's output, and with a matrix its derivatives, are checked for NaN and infinity and the first culprit is
+ * named. ERR_PLUGIN or ERR_CONVERGE (err->retry) if a term fails. */
 int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err);
 
 void assembly_destroy(assembly *a);

@@ -57,8 +57,47 @@ static void add_block(const pf_slot *out, const pf_slot *in, int n_trial, double
         }
 }
 
+/* Whether one of the n numbers of an output, or of its derivative by an input, is none: reports the first. */
+static int find_nan(const pf_batch *b, const double *v, size_t n, const pf_slot *out, const pf_slot *in,
+                    term_report *r)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(v[i])) {
+            size_t l = i % b->ld;
+            double x[3] = {b->x[l], b->x[b->ld + l], b->dim == 3 ? b->x[2 * b->ld + l] : 0};
+
+            r->status = PF_FAIL;
+            snprintf(r->text, sizeof r->text, "term %s.%s: %s \"%s\"%s%s%s is %g at x = %s, t = %.6g", r->plugin,
+                     r->term, in ? "derivative of" : "output", out->name, in ? " by \"" : "", in ? in->name : "",
+                     in ? "\"" : "", v[i], text_point(x, (int)b->dim).s, b->t);
+            return 1;
+        }
+    return 0;
+}
+
+static int find_nan_output(const pf_term *t, const pf_batch *b, double *const *out, term_report *r)
+{
+    for (uint32_t o = 0; o < t->n_out; o++)
+        if (find_nan(b, out[o], (size_t)term_components(t->out[o].shape, (int)b->dim) * b->ld, &t->out[o], NULL, r))
+            return 1;
+    return 0;
+}
+
+static int find_nan_derivative(const pf_term *t, const pf_batch *b, double *const *jac, term_report *r)
+{
+    for (uint32_t o = 0; o < t->n_out; o++)
+        for (uint32_t k = 0; k < t->n_in; k++) {
+            int n = term_components(t->out[o].shape, (int)b->dim) * term_components(t->in[k].shape, (int)b->dim);
+            const double *block = jac[o * t->n_in + k];
+
+            if (block && find_nan(b, block, (size_t)n * b->ld, &t->out[o], &t->in[k], r))
+                return 1;
+        }
+    return 0;
+}
+
 static int add_jacobian(const assembly_class *c, const assembly_state *s, const plan_use *p, const pf_batch *b,
-                        const double *const *in, int dim, workspace *w)
+                        const double *const *in, int dim, int diagnose, workspace *w)
 {
     const pf_term *t = p->use->term;
     double *jac[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
@@ -73,6 +112,8 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
         }
     memset(w->jac, 0, used * sizeof(double));
     status = term_jacobian(t, p->use->how, b, in, jac, w->room);
+    if (!status && diagnose && find_nan_derivative(t, b, jac, &w->report))
+        return PF_FAIL;
     for (uint32_t o = 0; o < t->n_out && !status; o++)
         for (uint32_t k = 0; k < t->n_in; k++) {
             double factor = strength(s, p) * (t->in[k].eval == PF_DOT ? b->shift : 1);
@@ -91,25 +132,6 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
                                  (double *)(w->block + block * (size_t)c->n_q));
         }
     return status;
-}
-
-/* The first number of an output that is none. */
-static int find_nan(const plan_use *p, const pf_batch *b, double *const *out, const char *what, term_report *r)
-{
-    const pf_term *t = p->use->term;
-
-    for (uint32_t o = 0; o < t->n_out; o++)
-        for (size_t i = 0, n = (size_t)term_components(t->out[o].shape, (int)b->dim) * b->ld; i < n; i++)
-            if (!isfinite(out[o][i])) {
-                size_t l = i % b->ld;
-                double x[3] = {b->x[l], b->x[b->ld + l], b->dim == 3 ? b->x[2 * b->ld + l] : 0};
-
-                r->status = PF_FAIL;
-                snprintf(r->text, sizeof r->text, "term %s.%s: %s \"%s\" is %g at x = %s, t = %.6g", r->plugin,
-                         r->term, what, t->out[o].name, out[o][i], text_point(x, (int)b->dim).s, b->t);
-                return 1;
-            }
-    return 0;
 }
 
 /* Kinds of a term: its flags, and whether it couples bodies to the fluid or to each other. */
@@ -188,13 +210,13 @@ static int evaluate_term(const assembly_class *c, const assembly_state *s, int64
     w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
     process_enter(w->report.plugin, t->name, "residual", cell);
     status = t->residual(b, in, out);
-    if (!status && diagnose && find_nan(p, b, out, "output", &w->report))
+    if (!status && diagnose && find_nan_output(t, b, out, &w->report))
         status = PF_FAIL;
     if (!status) {
         add_output(c, p, strength(s, p), out, dim, w);
         process_enter(w->report.plugin, t->name, "Jacobian", cell);
         if (with_matrix)
-            status = add_jacobian(c, s, p, b, in, dim, w);
+            status = add_jacobian(c, s, p, b, in, dim, diagnose, w);
     }
     process_leave();
     if (status && !w->report.status)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * plugflow run CASE. */
+#include "base/clock.h"
 #include "base/process.h"
 #include "cli/cli.h"
 
@@ -32,7 +33,7 @@ static void say(void *ctx, const char *line)
 static void progress(void *ctx, const run_progress *p)
 {
     teller *t = ctx;
-    double now = solve_seconds(), elapsed = now - t->start, rate = (double)p->step / (elapsed > 0 ? elapsed : 1);
+    double now = clock_seconds(), elapsed = now - t->start, rate = (double)p->step / (elapsed > 0 ? elapsed : 1);
     double left = (double)(p->steps - p->step) / rate;
     int last = p->step == p->steps;
 
@@ -94,7 +95,7 @@ static int print_file(const char *dir, const char *name)
 int cli_run(const cli *o, error *err)
 {
     cli_case *k = malloc(sizeof *k);
-    teller t = {.start = solve_seconds()};
+    teller t = {.start = clock_seconds()};
     run_talk talk = {.say = o->quiet ? NULL : say, .progress = o->quiet ? NULL : progress, .ctx = &t};
     const char *term = getenv("TERM");
     run_result result = {0};
@@ -113,7 +114,7 @@ int cli_run(const cli *o, error *err)
     if (!status) {
         if (!o->quiet)
             introduce(&k->p);
-        t.start = solve_seconds();
+        t.start = clock_seconds();
         printed = k->c.printed.n;
         status = run_problem(&k->p, dir, &talk, &process.stop, &result, err);
         if (t.line_open)

@@ -114,6 +114,18 @@ static void warn_singular(run *r, const newton_report *report)
     r->warned_singular |= report->singular;
 }
 
+/* A warning, once, if Newton's method converges as it does with a wrong matrix. */
+static void warn_order(run *r, const newton_report *report)
+{
+    if (report->linear_only && !r->warned_order)
+        warning_add(
+            &r->p->warnings,
+            "Newton converges with order %.1f only: some Jacobian block is wrong or missing; plugflow jacobian "
+            "%s compares them one by one",
+            report->order, r->p->description.c->path);
+    r->warned_order |= report->linear_only;
+}
+
 /* Says and logs the warnings that have come since the last call. */
 static int tell_warnings(run *r, error *err)
 {
@@ -157,10 +169,13 @@ static int steady(run *r, const volatile sig_atomic_t *stop, error *err)
     r->result->newton_order = report.order;
     r->result->newton_ratio = report.ratio;
     r->result->steps = 1;
+    warn_order(r, &report);
     if (!report.converged && stop && *stop) {
         r->result->status = "interrupted";
         return 0;
     }
+    if (!report.converged && report.singular)
+        return error_set(err, ERR_CONVERGE, "no steady state found: %s", report.why);
     if (!report.converged)
         return error_set(err, ERR_CONVERGE,
                          "no steady state found: %s; refine the mesh, start from an easier problem (solve { "
@@ -190,8 +205,10 @@ static int one_step(run *r, double next, error *err)
     const time_spec *time = &p->description.time;
     run_progress progress;
     int64_t before = p->state.newton_iterations;
+    int status = stepper_advance(s, next - p->state.t, err);
 
-    TRY(stepper_advance(s, next - p->state.t, err));
+    warn_order(r, &s->report);
+    TRY(status);
     p->state.t = next; /* steps that were halved add up to it but for round-off */
     r->result->steps++;
     r->result->newton_iterations = (int)p->state.newton_iterations;

@@ -62,7 +62,7 @@ typedef struct run {
     int n_body_file;
     char **body_file;
     struct located *probe_at, **line_at;
-    int log_fd, warned, warned_singular;
+    int log_fd, warned, warned_singular, warned_order;
     int told; /* warnings said so far */
     int n_file, room;
     char **file;

@@ -46,6 +46,8 @@ static void add_counts(const problem *p, const run_result *q, text *t)
         number(t, "cuts_with_rootless_cells", (double)p->bodies.rootless);
     number(t, "newton_iterations", q->newton_iterations);
     number(t, "newton_order", q->newton_order);
+    number(t, "evaluations", (double)p->system.evaluations);
+    number(t, "matrices", (double)p->system.matrices);
     number(t, "gmres_iterations", q->gmres_iterations);
     number(t, "factorisations", q->factorisations);
     number(t, "worst_linear_residual", l->worst_residual);

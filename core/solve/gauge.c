@@ -2,27 +2,27 @@
  *
  * Fields that the equations fix only up to a constant, like the pressure of an enclosed flow.
  *
- * Found on the matrix itself: field f has a free constant if no value of it is prescribed and
- * J 1_f = 0 and 1_f^T J = 0 to round-off.  Then its equations hold only for data whose sum
+ * Found on the matrix itself, on every one that is formed: field f has a free constant if no value of it is
+ * prescribed and J 1_f = 0 and 1_f^T J = 0 to round-off.  Then its equations hold only for data whose sum
  * vanishes; the part that does not is taken out of the residual in proportion to the integral
  * of each test function, and one value is held, which leaves all equations satisfied. */
 #include "solve/solve.h"
+#include "solve/vector.h"
 
 #include <math.h>
 #include <string.h>
 
 #define ROUND_OFF 1e-9
 
-double gauge_weights(const space *s, int field, double *weight)
+/* Integral of each basis function of a field over whole cells. */
+static int whole_cells(const space *s, int field, double *weight, error *err)
 {
     const mesh *m = s->mesh;
     const fe_cell *c = m->type;
     int order = s->field[field].order, n = fe_n_basis(c, order);
     fe_rule rule;
-    error ignored;
-    double volume = 0;
 
-    fe_rule_cell(c, 5, &rule, &ignored);
+    TRY(fe_rule_cell(c, ASSEMBLE_CELL_DEGREE, &rule, err));
     memset(weight, 0, (size_t)s->n_dof * sizeof *weight);
     for (int q = 0; q < rule.n; q++) {
         double g[FE_MAX_NODES], dg[FE_MAX_NODES][3], b[FE_MAX_NODES], db[FE_MAX_NODES][3];
@@ -32,7 +32,6 @@ double gauge_weights(const space *s, int field, double *weight)
         for (int64_t e = 0; e < m->n_cell; e++) {
             double j[3][3], at_x[3], det = mesh_map(m, e, g, (const double(*)[3])dg, at_x, j);
 
-            volume += rule.w[q] * det;
             for (int i = 0; i < n; i++) {
                 int64_t at = s->first[field][space_carrier(s, e, assemble_local(s, field, i))];
 
@@ -41,94 +40,111 @@ double gauge_weights(const space *s, int field, double *weight)
             }
         }
     }
-    return volume;
-}
-
-/* Whether the constant of field f is in both null spaces of the matrix. */
-static int has_constant(const newton_system *s, int f)
-{
-    const space *sp = s->space;
-    const linear *l = &s->linear;
-    double tolerance = s->gauge.tolerance > 0 ? s->gauge.tolerance : ROUND_OFF;
-    double *left = s->work, left_sum = 0, left_abs = 0, right_sum = 0, right_abs = 0;
-
-    memset(left, 0, (size_t)sp->n_dof * sizeof *left);
-    for (int64_t i = 0; i < sp->n_free; i++) {
-        int row_is_f = sp->dof_field[sp->dof_of[i]] == f;
-        double sum = 0, size = 0;
-
-        if (s->assembly.idle[sp->dof_of[i]])
-            continue;
-
-        for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++) {
-            double v = l->value[k];
-
-            if (sp->dof_field[sp->dof_of[sp->col[k]]] == f) {
-                sum += v;
-                size += fabs(v);
-            }
-            if (row_is_f) {
-                left[sp->col[k]] += v;
-                left_abs += v * v;
-            }
-        }
-        right_sum += sum * sum;
-        right_abs += size * size;
-    }
-    for (int64_t i = 0; i < sp->n_free; i++)
-        left_sum += left[i] * left[i];
-    return right_abs > 0 && left_abs > 0 && sqrt(right_sum) <= tolerance * sqrt(right_abs) &&
-           sqrt(left_sum) <= tolerance * sqrt(left_abs);
-}
-
-int gauge_detect(newton_system *s, error *err)
-{
-    space *sp = s->space;
-
-    if (s->gauge.known)
-        return 0;
-    for (int f = 0; f < sp->n_field; f++) {
-        int prescribed = sp->field[f].n_comp != 1 || sp->field[f].support != PF_ON_MESH;
-
-        for (int64_t d = 0; d < sp->n_dof && !prescribed; d++)
-            prescribed = sp->dof_field[d] == f && sp->fixed[d];
-        s->gauge.free[f] = !prescribed && has_constant(s, f);
-        if (s->gauge.free[f]) {
-            ARENA_NEW(&s->memory, s->gauge.weight[f], sp->n_dof, err);
-            s->gauge.volume = gauge_weights(sp, f, s->gauge.weight[f]);
-        }
-    }
-    s->gauge.known = 1;
     return 0;
 }
 
-int gauge_holds(newton_system *s)
+/* The weights in use: those that the owner set, else of whole cells. */
+static const double *weights(const gauge *g, int f)
 {
-    int holds = 1;
+    return g->weight[f] ? g->weight[f] : g->whole[f];
+}
 
-    for (int f = 0; f < s->space->n_field; f++)
-        if (s->gauge.free[f] && !has_constant(s, f))
-            holds = s->gauge.free[f] = 0;
-    return holds;
+/* Whether the constant of field f is in both null spaces of the matrix.  Rows: sum over the columns of f, sum of
+ * absolute values there, squares of the rows of f. */
+static int has_constant(newton_system *s, int f)
+{
+    const space *sp = s->space;
+    const double *value = s->linear.value;
+    double tolerance = s->gauge.tolerance > 0 ? s->gauge.tolerance : ROUND_OFF;
+    double *sum = s->rhs, *size = s->scale, *square = s->trial, *left = s->work, right_size, left_size;
+
+    memset(left, 0, (size_t)sp->n_free * sizeof *left);
+    for (int64_t i = 0; i < sp->n_free; i++) {
+        int row_is_f = sp->dof_field[sp->dof_of[i]] == f;
+
+        sum[i] = size[i] = square[i] = 0;
+        if (s->assembly.idle[sp->dof_of[i]])
+            continue;
+        for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++) {
+            double v = value[k];
+
+            if (sp->dof_field[sp->dof_of[sp->col[k]]] == f) {
+                sum[i] += v;
+                size[i] += fabs(v);
+            }
+            if (row_is_f) {
+                left[sp->col[k]] += v;
+                square[i] += v * v;
+            }
+        }
+        square[i] = sqrt(square[i]);
+    }
+    right_size = vector_norm(sp->n_free, size);
+    left_size = vector_norm(sp->n_free, square);
+    return right_size > 0 && left_size > 0 && vector_norm(sp->n_free, sum) <= tolerance * right_size &&
+           vector_norm(sp->n_free, left) <= tolerance * left_size;
+}
+
+/* The first row of the field that takes part. */
+static int64_t first_row(const newton_system *s, int f)
+{
+    const space *sp = s->space;
+    int64_t i = 0;
+
+    while (sp->dof_field[sp->dof_of[i]] != f || s->assembly.idle[sp->dof_of[i]])
+        i++;
+    return i;
+}
+
+int gauge_detect(newton_system *s, int *changed, error *err)
+{
+    space *sp = s->space;
+    gauge *g = &s->gauge;
+
+    *changed = 0;
+    for (int f = 0; f < sp->n_field; f++) {
+        int is_free = sp->field[f].n_comp == 1 && sp->field[f].support == PF_ON_MESH &&
+                      !vector_field_prescribed(sp, f) && has_constant(s, f);
+
+        *changed |= is_free != g->free[f];
+        g->free[f] = is_free;
+        g->defect[f] = is_free ? g->defect[f] : 0;
+        g->pin[f] = is_free ? first_row(s, f) : -1;
+        if (is_free && !weights(g, f)) {
+            ARENA_NEW(&s->memory, g->whole[f], sp->n_dof, err);
+            TRY(whole_cells(sp, f, g->whole[f], err));
+        }
+    }
+    return 0;
 }
 
 void gauge_project(newton_system *s, double *residual)
 {
     const space *sp = s->space;
+    gauge *g = &s->gauge;
 
     for (int f = 0; f < sp->n_field; f++) {
-        double sum = 0, volume = 0;
-
-        if (!s->gauge.free[f])
+        if (!g->free[f])
             continue;
-        for (int64_t d = 0; d < sp->n_dof; d++)
-            if (sp->dof_field[d] == f && !s->assembly.idle[d])
-                sum += residual[d], volume += s->gauge.weight[f][d];
-        for (int64_t d = 0; d < sp->n_dof; d++)
-            if (sp->dof_field[d] == f && !s->assembly.idle[d])
-                residual[d] -= sum / volume * s->gauge.weight[f][d];
-        s->gauge.defect[f] = sum;
+        g->volume = vector_field_sum(sp, s->assembly.idle, f, weights(g, f));
+        g->defect[f] = vector_field_sum(sp, s->assembly.idle, f, residual);
+        vector_field_add(sp, s->assembly.idle, f, -(g->defect[f] / g->volume), weights(g, f), residual);
     }
+}
+
+double gauge_excess(const newton_system *s, const double *scale)
+{
+    const space *sp = s->space;
+    const gauge *g = &s->gauge;
+    double largest = 0;
+
+    for (int f = 0; f < sp->n_field; f++)
+        if (g->free[f]) {
+            double size = sqrt(vector_field_dot(sp, s->assembly.idle, f, weights(g, f), weights(g, f))) / g->volume;
+
+            largest = vector_worse(fabs(g->defect[f]) * size / (scale[f] > 0 ? scale[f] : 1), largest);
+        }
+    return largest;
 }
 
 void gauge_pin(newton_system *s)
@@ -137,12 +153,10 @@ void gauge_pin(newton_system *s)
     linear *l = &s->linear;
 
     for (int f = 0; f < sp->n_field; f++) {
-        int64_t pin = 0;
+        int64_t pin = s->gauge.pin[f];
 
         if (!s->gauge.free[f])
             continue;
-        while (sp->dof_field[sp->dof_of[pin]] != f || s->assembly.idle[sp->dof_of[pin]])
-            pin++;
         for (int64_t k = sp->row[pin]; k < sp->row[pin + 1]; k++) {
             int64_t j = sp->col[k];
 
@@ -160,17 +174,12 @@ void gauge_zero_mean(const newton_system *s, double *x)
     const space *sp = s->space;
 
     for (int f = 0; f < sp->n_field; f++) {
-        double mean = 0, volume = 0;
+        const double *w = weights(&s->gauge, f);
 
-        if (!s->gauge.free[f])
-            continue;
-        for (int64_t d = 0; d < sp->n_dof; d++)
-            if (sp->dof_field[d] == f && !s->assembly.idle[d]) {
-                mean += s->gauge.weight[f][d] * x[d];
-                volume += s->gauge.weight[f][d];
-            }
-        for (int64_t d = 0; d < sp->n_dof; d++)
-            if (sp->dof_field[d] == f && !s->assembly.idle[d])
-                x[d] -= mean / volume;
+        if (s->gauge.free[f])
+            vector_field_add(
+                sp, s->assembly.idle, f,
+                -(vector_field_dot(sp, s->assembly.idle, f, w, x) / vector_field_sum(sp, s->assembly.idle, f, w)),
+                NULL, x);
     }
 }

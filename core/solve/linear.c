@@ -4,6 +4,8 @@
  * factors of an earlier matrix.  Old factors are kept while the iterations spent on them cost
  * less than new ones, by predicted operations, so that the choice is the same in every run. */
 #include "solve/solve.h"
+#include "base/clock.h"
+#include "solve/vector.h"
 
 #include <float.h>
 #include <math.h>
@@ -23,14 +25,12 @@ double solve_seconds(void)
 /* Part of the largest right-hand side of a run below which a solution is a correction in the last digits. */
 #define ROUND_OFF 1e-8
 
-static double dot(int64_t n, const double *a, const double *b)
-{
-    double s = 0;
+/* Backward error above which a solution is none: that of a stable factorisation is round-off and growth of pivots.
+ */
+#define BACKWARD_ERROR 1e-8
 
-    for (int64_t i = 0; i < n; i++)
-        s += a[i] * b[i];
-    return s;
-}
+/* Relative residual of fresh factors above which a solution is useless. */
+#define USELESS 1e-6
 
 /* y = A x */
 static void multiply(const linear *l, const double *x, double *y)
@@ -64,10 +64,10 @@ int linear_create(linear *l, const pf_solver *solver, const space *s, int n_thre
 
     l->solver = solver;
     l->a = (pf_csr){.n = s->n_free, .row = s->row, .col = s->col, .n_node = s->n_row_node, .node = s->row_node};
-    l->max_iterations = s->mesh->dim == 2 ? 12 : 30;
+    l->max_iterations = s->mesh->dim == 2 ? 12 : LINEAR_MAX_ITERATIONS;
     ARENA_NEW(&l->memory, l->value, s->row[s->n_free], err);
     l->a.value = l->value;
-    ARENA_NEW(&l->memory, l->r, 2 * s->n_free, err);
+    ARENA_NEW(&l->memory, l->r, s->n_free, err);
     ARENA_NEW(&l->memory, l->v, (l->max_iterations + 1) * s->n_free, err);
     ARENA_NEW(&l->memory, l->z, l->max_iterations * s->n_free, err);
     if (solver->create(&l->self, n_thread, why, sizeof why))
@@ -85,16 +85,21 @@ void linear_destroy(linear *l)
 
 void linear_forget(linear *l)
 {
-    l->factored = 0;
+    l->factored = l->fresh = 0;
+}
+
+void linear_keep(linear *l)
+{
+    l->kept = 1;
 }
 
 int linear_predict(linear *l, error *err)
 {
     char why[400] = "";
-    double t = solve_seconds(), memory;
+    double t = clock_seconds(), memory;
     int status = l->solver->analyze(l->self, &l->a, &l->stats.cost, why, sizeof why);
 
-    l->stats.analyze_seconds += solve_seconds() - t;
+    l->stats.analyze_seconds += clock_seconds() - t;
     if (status)
         return error_set(err, status == PF_SOLVER_MEMORY ? ERR_MEMORY : ERR_CONVERGE, "linear solver %s: %s",
                          l->solver->name, why);
@@ -140,34 +145,33 @@ static void rotate(double *h, double *c, double *s, double *g, int k)
     g[k] = c[k] * g[k];
 }
 
-/* GMRES from x = 0; *reached = relative residual. */
+/* GMRES from x = 0, at most `limit` iterations; *reached = relative residual, l->r = b - A x. */
 static int gmres(linear *l, const double *b, double *x, double tol, int limit, double *reached, error *err)
 {
-    enum { MOST = 64 };
+    enum { MOST = LINEAR_MAX_ITERATIONS };
     int64_t n = l->a.n;
-    double h[MOST][MOST + 1], c[MOST], s[MOST], g[MOST + 1] = {0}, y[MOST], size = sqrt(dot(n, b, b));
+    double h[MOST][MOST + 1], c[MOST], s[MOST], g[MOST + 1] = {0}, y[MOST], size = vector_norm(n, b);
     int k = 0;
 
     memset(x, 0, (size_t)n * sizeof *x);
+    memset(l->r, 0, (size_t)n * sizeof *l->r);
     *reached = 0;
     if (size == 0)
         return 0;
     g[0] = size;
-    for (int64_t i = 0; i < n; i++)
-        l->v[i] = b[i] / size;
+    vector_divide(n, size, b, l->v);
     while (k < limit && fabs(g[k]) > tol * size) {
         double *w = l->v + (k + 1) * n, *z = l->z + k * n, next;
 
         TRY(linear_apply(l, l->v + k * n, z, err));
         multiply(l, z, w);
         for (int i = 0; i <= k; i++) {
-            h[k][i] = dot(n, w, l->v + i * n);
-            for (int64_t j = 0; j < n; j++)
-                w[j] -= h[k][i] * l->v[i * n + j];
+            h[k][i] = vector_dot(n, w, l->v + i * n);
+            vector_add(n, -h[k][i], l->v + i * n, w);
         }
-        next = h[k][k + 1] = sqrt(dot(n, w, w));
-        for (int64_t j = 0; j < n && next > 0; j++)
-            w[j] /= next;
+        next = h[k][k + 1] = vector_norm(n, w);
+        if (next > 0)
+            vector_divide(n, next, w, w);
         rotate(h[k], c, s, g, k);
         k++;
         l->stats.gmres_iterations++;
@@ -180,13 +184,11 @@ static int gmres(linear *l, const double *b, double *x, double tol, int limit, d
         for (int j = i + 1; j < k; j++)
             y[i] -= h[j][i] * y[j];
         y[i] /= h[i][i];
-        for (int64_t j = 0; j < n; j++)
-            x[j] += y[i] * l->z[i * n + j];
+        vector_add(n, y[i], l->z + i * n, x);
     }
     multiply(l, x, l->r);
-    for (int64_t i = 0; i < n; i++)
-        l->r[i] = b[i] - l->r[i];
-    *reached = sqrt(dot(n, l->r, l->r)) / size;
+    vector_subtract(n, b, l->r);
+    *reached = vector_norm(n, l->r) / size;
     return 0;
 }
 
@@ -198,15 +200,14 @@ static int factor(linear *l, error *err)
 
     if (!l->analyzed)
         TRY(linear_predict(l, err));
-    t = solve_seconds();
+    t = clock_seconds();
     status = l->solver->setup(l->self, &l->a, why, sizeof why);
-    l->stats.factor_seconds += solve_seconds() - t;
+    l->stats.factor_seconds += clock_seconds() - t;
     l->stats.factorisations++;
     l->spent = 0;
-    l->factored = status == PF_SOLVER_OK;
+    l->factored = l->fresh = status == PF_SOLVER_OK;
     if (status == PF_SOLVER_SINGULAR) {
-        error_set(err, ERR_CONVERGE,
-                  "the linear system is singular: an equation or a boundary condition is missing for some unknown");
+        error_set(err, ERR_CONVERGE, "the linear system is singular");
         err->retry = 1;
         return ERR_CONVERGE;
     }
@@ -216,35 +217,75 @@ static int factor(linear *l, error *err)
     return 0;
 }
 
+/* Backward error |b - A z| / (| |A||z| | + |b|) of what the solver returns (Oettli and Prager 1964); infinite if
+ * it is not a number.  A sound solver keeps it at round-off, however nearly singular A is. */
+static int backward_error(linear *l, const double *b, double *z, double *backward, error *err)
+{
+    int64_t n = l->a.n;
+    double *size = l->v, left;
+
+    TRY(linear_apply(l, b, z, err));
+    for (int64_t i = 0; i < n; i++) {
+        size[i] = 0;
+        for (int64_t k = l->a.row[i]; k < l->a.row[i + 1]; k++)
+            size[i] += fabs(l->value[k] * z[l->a.col[k]]);
+    }
+    multiply(l, z, l->r);
+    vector_subtract(n, b, l->r);
+    left = vector_norm(n, l->r);
+    *backward = left / (vector_norm(n, size) + vector_norm(n, b));
+    if (!isfinite(left) || isnan(*backward))
+        *backward = INFINITY;
+    return 0;
+}
+
+/* Fresh factors left a residual: says whether the matrix or the solver is to blame. */
+static int blame(linear *l, const double *b, double *x, double reached, error *err)
+{
+    double backward;
+
+    l->factored = l->fresh = 0;
+    TRY(backward_error(l, b, x, &backward, err));
+    if (backward > BACKWARD_ERROR)
+        return error_set(
+            err, ERR_PLUGIN,
+            "linear solver %s left a residual of %.2g after its own factorisation, and its solution %s: "
+            "the solver or its plugin is at fault, not the equations; take another solver",
+            l->solver->name, reached, isinf(backward) ? "is not finite" : "solves no system near this one");
+    error_set(err, ERR_CONVERGE, "the linear system is nearly singular: residual %.2g after factoring it", reached);
+    err->retry = 1;
+    return ERR_CONVERGE;
+}
+
 int linear_solve(linear *l, const double *b, double *x, double tol, error *err)
 {
     double t, reached, size, solve_flops = 4 * l->stats.cost.fill;
 
     l->stats.solves++;
-    if (l->factored && tol > 0 && l->spent * solve_flops < l->stats.cost.flops) {
-        t = solve_seconds();
+    l->fresh = l->fresh && l->kept;
+    l->kept = 0;
+    if (l->factored && !l->fresh && tol > 0 && l->spent * solve_flops < l->stats.cost.flops) {
+        int spent = l->spent;
+
+        t = clock_seconds();
         TRY(gmres(l, b, x, tol, l->max_iterations, &reached, err));
-        l->stats.solve_seconds += solve_seconds() - t;
+        l->stats.solve_seconds += clock_seconds() - t;
+        if (l->spent == spent + 1 && reached <= LINEAR_ACCEPT)
+            l->spent = spent; /* as good as fresh ones: new factors would have taken this iteration, too */
         if (reached <= 1.01 * tol)
             return 0;
     }
-    TRY(factor(l, err));
-    t = solve_seconds();
+    if (!l->fresh)
+        TRY(factor(l, err));
+    t = clock_seconds();
     TRY(gmres(l, b, x, LINEAR_ACCEPT, 1, &reached, err));
     if (!(reached <= LINEAR_ACCEPT))
         TRY(gmres(l, b, x, 0.1 * LINEAR_ACCEPT, l->max_iterations, &reached, err));
-    size = sqrt(dot(l->a.n, b, b));
+    size = vector_norm(l->a.n, b);
     l->stats.largest_b = fmax(l->stats.largest_b, size);
     if (isfinite(reached)) /* of a right-hand side near round-off only a part */
         l->stats.worst_residual =
             fmax(l->stats.worst_residual, reached * fmin(1, size / (ROUND_OFF * l->stats.largest_b + DBL_MIN)));
-    l->stats.solve_seconds += solve_seconds() - t;
-    if (!(reached <= 1e-6)) {
-        error_set(err, ERR_CONVERGE, "the linear system is nearly singular: residual %.2g after factoring it",
-                  reached);
-        err->retry = 1;
-        l->factored = 0;
-        return ERR_CONVERGE;
-    }
-    return 0;
+    l->stats.solve_seconds += clock_seconds() - t;
+    return reached <= USELESS ? 0 : blame(l, b, x, reached, err);
 }

@@ -2,255 +2,309 @@
  *
  * Newton's method with backtracking.
  *
- * A field has converged when |r_f| <= tolerance * scale_f.  The scale is what the rows of the
- * field add up before they cancel, | |J| x~ |, x~ the size of the unknowns; a field that vanishes has the
- * size (|J| |x|)_j / |J_jj| that nothing balancing its row would give it: so a velocity that is zero
- * in the end is measured by the forces that might have moved it.  The last step must have been small, too. */
+ * A field has converged when |r_f| <= tolerance * scale_f (scale.c), and its last step was small, too.
+ *
+ * An iteration takes one residual and one matrix: the residual that the line search accepted is that of the next
+ * iteration.  While the residuals, falling quadratically, promise that there will be one, a full step is tried with
+ * residual and matrix at once; the last matrix, which nobody needs, is not formed.  If all terms are linear,
+ * the first matrix serves to the end. */
 #include "solve/solve.h"
+#include "solve/vector.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-/* A field below this, relative to what its equations might make of it, is zero but for round-off. */
-#define VANISHES 1e-12
 /* A scaled residual that nothing makes smaller. */
 #define ROUND_OFF 1e-14
 /* Newton goes on until its last step was smaller than this, relative to the field: what is left is its square. */
 #define LAST_STEP 1e-4
+/* A step of a linear problem leaves less of the residual than this, or the terms are not what their flags say. */
+#define LINEAR_FALL 1e-3
+/* Residuals between which the order of convergence is observed for what it says about the matrix. */
+#define MOST  1e-2
+#define LEAST 1e-12
 
-int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_spec, const pf_solver *solver,
-                  int n_thread, error *err)
+/* What s->linear.value holds: the matrix at x; at an iterate before; nothing that is of use. */
+enum matrix { MATRIX_HERE, MATRIX_OLD, MATRIX_LOST };
+
+typedef struct iterate {
+    newton_system *s;
+    const newton_time *time;
+    const newton_options *o;
+    newton_report *report;
+    double *x;
+    double scale[SPACE_MAX_FIELDS];
+    enum matrix matrix;
+    int solved;                            /* the last linear system had this matrix                        */
+    int retry;                             /* the last trial was refused by a term, see err                 */
+    int linear;                            /* all terms are                                                 */
+    double length[NEWTON_MAX_ITERATIONS];  /* of the step from iterate k                                    */
+    double inexact[NEWTON_MAX_ITERATIONS]; /* residual that its linear solution left, relative to that of k */
+} iterate;
+
+static void give_up(newton_report *r, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+static void give_up(newton_report *r, const char *fmt, ...)
 {
-    memset(s, 0, sizeof *s);
-    s->space = sp;
-    TRY(assembly_create(&s->assembly, sp, spec, n_spec, n_thread, err));
-    TRY(linear_create(&s->linear, solver, sp, n_thread, err));
-    ARENA_NEW(&s->memory, s->residual, sp->n_dof, err);
-    ARENA_NEW(&s->memory, s->trial, sp->n_dof, err);
-    ARENA_NEW(&s->memory, s->step, sp->n_dof, err);
-    ARENA_NEW(&s->memory, s->rhs, sp->n_dof, err);
-    ARENA_NEW(&s->memory, s->scale, sp->n_dof, err);
-    ARENA_NEW(&s->memory, s->work, sp->n_dof, err);
+    va_list ap;
+
+    va_start(ap, fmt);
+    vsnprintf(r->why, sizeof r->why, fmt, ap);
+    va_end(ap);
+}
+
+/* Residual and matrix at x.  *changed: other fields than before are free up to a constant. */
+static int form_matrix(iterate *it, int *changed, error *err)
+{
+    newton_system *s = it->s;
+
+    it->solved = 0;
+    it->matrix = MATRIX_LOST;
+    TRY(system_evaluate(s, it->time, it->x, 1, 0, err));
+    it->matrix = MATRIX_HERE;
+    TRY(gauge_detect(s, changed, err));
+    gauge_project(s, s->residual);
     return 0;
-}
-
-int system_renew(newton_system *s, error *err)
-{
-    linear_stats stats = s->linear.stats;
-    const pf_solver *solver = s->linear.solver;
-    double limit = s->linear.memory_limit;
-
-    TRY(space_constrain(s->space, err));
-    linear_destroy(&s->linear);
-    TRY(linear_create(&s->linear, solver, s->space, s->assembly.n_thread, err));
-    s->linear.stats = stats;
-    s->linear.memory_limit = limit;
-    return 0;
-}
-
-void system_destroy(newton_system *s)
-{
-    assembly_destroy(&s->assembly);
-    linear_destroy(&s->linear);
-    arena_free(&s->memory);
-    memset(s, 0, sizeof *s);
-}
-
-static int evaluate(newton_system *s, const newton_time *time, const double *x, int with_matrix, int diagnose,
-                    error *err)
-{
-    const space *sp = s->space;
-    assembly_state st = {.t = time->t,
-                         .dt = time->dt,
-                         .shift = time->shift,
-                         .x = x,
-                         .dot = s->work,
-                         .old = time->old,
-                         .bodies = time->bodies,
-                         .frame = time->frame,
-                         .faded = time->faded,
-                         .only = time->only};
-    double start = solve_seconds();
-    int status;
-
-    for (int64_t d = 0; d < sp->n_dof; d++)
-        s->work[d] = time->history ? time->shift * x[d] + time->history[d] : 0;
-    if (!st.old)
-        st.old = x;
-    status = assembly_run(&s->assembly, &st, s->residual, with_matrix ? s->linear.value : NULL, diagnose, err);
-    s->assemble_seconds += solve_seconds() - start;
-    return status;
-}
-
-int newton_residual(newton_system *s, const newton_time *time, const double *x, double *residual, error *err)
-{
-    TRY(evaluate(s, time, x, 0, 0, err));
-    memcpy(residual, s->residual, (size_t)s->space->n_dof * sizeof *residual);
-    return 0;
-}
-
-/* scale[f] as above, from the matrix at x; with a step, the unknowns count with what they are about to become. */
-static void field_scales(newton_system *s, const double *x, const double *step, double *scale)
-{
-    const space *sp = s->space;
-    const double *a = s->linear.value;
-    double *size = s->scale, most[SPACE_MAX_FIELDS] = {0}, might[SPACE_MAX_FIELDS] = {0},
-           mean[SPACE_MAX_FIELDS] = {0};
-    int64_t n[SPACE_MAX_FIELDS] = {0};
-
-    for (int64_t i = 0; i < sp->n_free; i++) {
-        int f = sp->dof_field[sp->dof_of[i]];
-        double sum = fabs(s->residual[sp->dof_of[i]]), diagonal = 0, largest = 0;
-
-        for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++) {
-            sum += fabs(a[k] * x[sp->dof_of[sp->col[k]]]);
-            largest = fmax(largest, fabs(a[k]));
-            if (sp->col[k] == i)
-                diagonal = fabs(a[k]);
-        }
-        size[i] = diagonal > 1e-8 * largest ? sum / diagonal : 0;
-        most[f] = fmax(most[f], fabs(x[sp->dof_of[i]]));
-        might[f] = fmax(might[f], size[i]);
-    }
-    for (int64_t i = 0; i < sp->n_free; i++) {
-        int f = sp->dof_field[sp->dof_of[i]];
-
-        size[i] =
-            fabs(x[sp->dof_of[i]]) + (most[f] < VANISHES * might[f] ? size[i] : 0) + (step ? fabs(step[i]) : 0);
-        mean[f] += size[i] * size[i];
-        n[f]++;
-    }
-    for (int f = 0; f < sp->n_field; f++) {
-        s->vanishes[f] = most[f] < VANISHES * might[f] || most[f] == 0;
-        mean[f] = n[f] ? sqrt(mean[f] / (double)n[f]) : 0; /* no component counts for less than this */
-        scale[f] = 0;
-    }
-    for (int64_t i = 0; i < sp->n_free; i++) {
-        double sum = 0;
-
-        for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++)
-            sum += fabs(a[k]) * fmax(size[sp->col[k]], mean[sp->dof_field[sp->dof_of[sp->col[k]]]]);
-        scale[sp->dof_field[sp->dof_of[i]]] += sum * sum;
-    }
-    for (int f = 0; f < sp->n_field; f++)
-        scale[f] = sqrt(scale[f]);
-}
-
-/* Largest relative change of a field by the last step; fields that vanish do not count. */
-static double field_change(const newton_system *s, const double *x, double length)
-{
-    const space *sp = s->space;
-    double step[SPACE_MAX_FIELDS] = {0}, size[SPACE_MAX_FIELDS] = {0}, largest = 0;
-
-    for (int64_t i = 0; i < sp->n_free; i++) {
-        int f = sp->dof_field[sp->dof_of[i]];
-        double v = x[sp->dof_of[i]], d = length * s->step[i];
-
-        step[f] += d * d;
-        size[f] += v * v;
-    }
-    for (int f = 0; f < sp->n_field; f++)
-        if (!s->vanishes[f] && size[f] > 0 && !s->gauge.free[f] && sp->field[f].support != PF_IN_PARTICLES)
-            largest = fmax(largest, sqrt(step[f] / size[f]));
-    return largest;
-}
-
-/* Scaled residual of each field; returns the largest. */
-static double field_norms(const newton_system *s, const double *scale, double *norm)
-{
-    const space *sp = s->space;
-    double largest = 0;
-
-    for (int f = 0; f < sp->n_field; f++)
-        norm[f] = 0;
-    for (int64_t i = 0; i < sp->n_free; i++) {
-        double r = s->residual[sp->dof_of[i]];
-
-        norm[sp->dof_field[sp->dof_of[i]]] += r * r;
-    }
-    for (int f = 0; f < sp->n_field; f++) {
-        norm[f] = norm[f] > 0 ? sqrt(norm[f]) / (scale[f] > 0 ? scale[f] : 1) : norm[f];
-        if (!(norm[f] <= largest))
-            largest = norm[f]; /* NaN counts as largest */
-    }
-    return largest;
 }
 
 /* One more correction with the factors there are: it costs a solve and a residual, and takes the
  * error down to round-off.  Kept only if the residual falls.  *change: no more than its relative size. */
-static int polish(newton_system *s, const newton_time *time, const double *scale, double *x, double *norm,
-                  double *change, error *err)
+static int polish(iterate *it, double *change, error *err)
 {
-    const space *sp = s->space;
-    double before = field_norms(s, scale, norm), after;
+    newton_system *s = it->s;
+    size_t bytes = (size_t)s->space->n_dof * sizeof *it->x;
+    double norm[SPACE_MAX_FIELDS], before = it->report->history[it->report->iterations], own;
+    int status;
 
-    for (int64_t i = 0; i < sp->n_free; i++)
-        s->rhs[i] = -s->residual[sp->dof_of[i]];
+    vector_negative(s->space, s->residual, s->rhs);
     gauge_pin(s);
     TRY(linear_apply(&s->linear, s->rhs, s->step, err));
-    memcpy(s->trial, x, (size_t)sp->n_dof * sizeof *x);
-    for (int64_t i = 0; i < sp->n_free; i++)
-        x[sp->dof_of[i]] += s->step[i];
-    TRY(evaluate(s, time, x, 0, 0, err));
+    memcpy(s->trial, it->x, bytes);
+    memcpy(s->scale, s->residual, bytes);
+    vector_step(s->space, 1, s->step, it->x);
+    status = system_evaluate(s, it->time, it->x, 0, 0, err);
+    if (status && !err->retry)
+        return status;
     gauge_project(s, s->residual);
-    after = field_norms(s, scale, norm);
-    *change = fmin(*change, field_change(s, x, 1));
-    if (after < before)
+    own = scale_change(s, it->x, 1);
+    if (own < *change)
+        *change = own;
+    if (!status && scale_norms(s, it->scale, norm) < before) {
+        memcpy(it->report->norm, norm, sizeof norm);
         return 0;
-    memcpy(x, s->trial, (size_t)sp->n_dof * sizeof *x);
-    TRY(evaluate(s, time, x, 0, 0, err));
-    gauge_project(s, s->residual);
-    field_norms(s, scale, norm);
+    }
+    memcpy(it->x, s->trial, bytes);
+    memcpy(s->residual, s->scale, bytes);
     return 0;
 }
 
-static double merit(const newton_system *s, const double *norm)
+/* The residual is small enough at iterate k: converged if the last step was small, too, and if the constants that
+ * were taken out of the residual are still free with a matrix of near here. */
+static int settle(iterate *it, int k, error *err)
+{
+    newton_system *s = it->s;
+    newton_report *r = it->report;
+    double change = r->history[k] > 0 && k > 0 ? scale_change(s, it->x, it->length[k - 1]) : 0;
+    int changed = 0;
+
+    if (gauge_excess(s, it->scale) > it->o->tolerance && !(change <= LAST_STEP) && !it->linear &&
+        it->matrix != MATRIX_HERE)
+        TRY(form_matrix(it, &changed, err));
+    if (changed) {
+        r->history[k] = scale_norms(s, it->scale, r->norm);
+        return 0;
+    }
+    if (s->linear.factored && r->history[k] > 0)
+        TRY(polish(it, &change, err));
+    r->converged = change <= LAST_STEP || r->history[k] <= ROUND_OFF;
+    return 0;
+}
+
+/* A matrix for the step from iterate k. */
+static int need_matrix(iterate *it, int k, error *err)
+{
+    newton_report *r = it->report;
+    int changed;
+
+    it->linear = it->linear && (k == 0 || r->history[k] <= LINEAR_FALL * r->history[k - 1]);
+    if (it->matrix == MATRIX_HERE || it->linear)
+        return 0;
+    TRY(form_matrix(it, &changed, err));
+    if (changed)
+        r->history[k] = scale_norms(it->s, it->scale, r->norm);
+    return 0;
+}
+
+/* s->step: Newton's. */
+static int correct(iterate *it, int k, error *err)
+{
+    newton_system *s = it->s;
+    newton_report *r = it->report;
+    int status;
+
+    vector_negative(s->space, s->residual, s->rhs);
+    gauge_pin(s);
+    if (it->solved)
+        linear_keep(&s->linear);
+    status = linear_solve(&s->linear, s->rhs, s->step, it->o->linear_tolerance, err);
+    it->solved = 1;
+    if (status && !explain_is_finite(s))
+        return explain_nan(s, it->time, it->x, err);
+    if (status && err->retry) {
+        /* what the equations determine may have converged; some unknowns they do not */
+        r->singular = 1;
+        r->converged = k > 0 && r->history[k] <= 100 * it->o->tolerance;
+        explain_singular(s, err);
+    }
+    return status;
+}
+
+/* What a step must lower: the norms of the fields together, but for those that wait (scale.c).  These depend on
+ * fields that have not converged and that do not depend on them.  Their equations are still changing: a quantity
+ * derived from a flow starts as 0 = 0, and every step towards the flow makes its residual grow.  It must not forbid
+ * the step, as it may grow without harm: what it depends on goes its way whatever it does, and then it is its turn.
+ */
+static double merit(const newton_system *s, const double *norm, uint32_t waits)
 {
     double sum = 0;
 
     for (int f = 0; f < s->space->n_field; f++)
-        sum += norm[f] * norm[f];
+        sum += waits >> f & 1 ? 0 : norm[f] * norm[f];
     return sqrt(sum);
 }
 
-/* Moves x along the step: whole, or halved until the scaled residual falls.  Returns the length, 0 = failed. */
-static int line_search(newton_system *s, const newton_time *time, const double *scale, double before, double *x,
-                       double *length, double *norm, error *err)
+/* Whether there will be an iteration after the one from k: by residuals that fall quadratically, at first by the
+ * solve before.  Not after a step that had to be shortened: it may have to be again. */
+static int expects_more(const iterate *it, int k)
 {
-    const space *sp = s->space;
+    const double *h = it->report->history;
 
+    if (it->linear || k + 1 >= it->o->max_iterations)
+        return 0;
+    if (k == 0)
+        return it->s->last_iterations != 1;
+    return it->length[k - 1] == 1 && h[k] * (h[k] / h[k - 1]) * (h[k] / h[k - 1]) > it->o->tolerance;
+}
+
+/* One trial of the line search, at s->trial: *after = its merit, or NaN.  An error only if going on makes no sense.
+ */
+static int try_step(iterate *it, double length, int with_matrix, uint32_t waits, double *after, error *err)
+{
+    newton_system *s = it->s;
+    int status;
+
+    *after = NAN;
+    memcpy(s->trial, it->x, (size_t)s->space->n_dof * sizeof *it->x);
+    vector_step(s->space, length, s->step, s->trial);
+    if (with_matrix) {
+        it->matrix = MATRIX_LOST;
+        it->solved = 0;
+    }
+    status = system_evaluate(s, it->time, s->trial, with_matrix, 0, err);
+    it->retry = status && err->retry;
+    if (status)
+        return it->retry ? 0 : status;
+    gauge_project(s, s->residual);
+    if (isfinite(scale_norms(s, it->scale, it->report->norm)))
+        *after = merit(s, it->report->norm, waits);
+    return 0;
+}
+
+/* Moves x along the step: whole, or halved until the scaled residual falls; length[k] = 0 if it does not. */
+static int line_search(iterate *it, int k, uint32_t waits, error *err)
+{
+    newton_system *s = it->s;
+    newton_report *r = it->report;
+    double before = merit(s, r->norm, waits), after = 0, *length = &it->length[k];
+
+    it->matrix = MATRIX_OLD;
     for (*length = 1; *length > 1e-3; *length *= 0.5) {
-        int status;
-        double after;
+        int both = *length == 1 && expects_more(it, k);
 
-        memcpy(s->trial, x, (size_t)sp->n_dof * sizeof *x);
-        for (int64_t i = 0; i < sp->n_free; i++)
-            s->trial[sp->dof_of[i]] += *length * s->step[i];
-        status = evaluate(s, time, s->trial, 0, 0, err);
-        if (status && !err->retry)
-            return status;
-        gauge_project(s, s->residual);
-        field_norms(s, scale, norm);
-        after = merit(s, norm);
-        if (!status && isfinite(after) && (after <= (1 - 1e-4 * *length) * before || after < 1e-12)) {
-            memcpy(x, s->trial, (size_t)sp->n_dof * sizeof *x);
+        TRY(try_step(it, *length, both, waits, &after, err));
+        if (after <= (1 - 1e-4 * *length) * before || after < 1e-12) {
+            memcpy(it->x, s->trial, (size_t)s->space->n_dof * sizeof *it->x);
+            it->matrix = both ? MATRIX_HERE : it->matrix;
             return 0;
         }
     }
     *length = 0;
+    r->converged = k > 0 && r->history[k] <= 100 * it->o->tolerance; /* round-off: nothing smaller is to be had */
+    if (r->converged)
+        return 0;
+    if (it->retry)
+        return err->code;
+    if (!isfinite(after)) {
+        int status = explain_nan(s, it->time, s->trial, err);
+
+        err->retry = 1; /* x itself is sound, and so may be other ways from it */
+        return status;
+    }
+    give_up(r, "no step along Newton's direction lowers the residual (%.2g)", r->history[k]);
     return 0;
 }
 
-/* Names who put the NaN there. */
-static int explain_nan(newton_system *s, const newton_time *time, const double *x, error *err)
+/* From iterate k, with its step, to the next; length[k] = 0 if there is none. */
+static int advance(iterate *it, int k, error *err)
 {
-    int status = evaluate(s, time, x, 0, 1, err);
+    newton_system *s = it->s;
+    newton_report *r = it->report;
+    uint32_t waits = scale_waiting(s, r->norm, it->o->tolerance);
+    double norm[SPACE_MAX_FIELDS];
+    int changed = 0;
 
-    if (!status)
-        status = error_set(err, ERR_CONVERGE, "the residual is not a finite number");
-    err->retry = time->history != NULL; /* a smaller step may avoid it */
-    return status;
+    scale_fields(s, it->x, s->step, it->scale);
+    if (!isfinite(scale_norms(s, it->scale, r->norm)))
+        return explain_nan(s, it->time, it->x, err);
+    scale_norms_free(s, s->linear.r, it->scale, norm);
+    it->inexact[k] = merit(s, norm, 0) / merit(s, r->norm, 0);
+    TRY(line_search(it, k, waits, err));
+    if (it->length[k] == 0)
+        return 0;
+    if (it->matrix == MATRIX_LOST) {
+        TRY(form_matrix(it, &changed, err));
+    } else if (it->matrix == MATRIX_HERE) {
+        TRY(gauge_detect(s, &changed, err));
+        if (changed)
+            TRY(system_evaluate(s, it->time, it->x, 0, 0, err));
+        if (changed)
+            gauge_project(s, s->residual);
+    }
+    scale_fields(s, it->x, NULL, it->scale);
+    return 0;
+}
+
+/* Iterate k: done (*more = 0), or on to the next. */
+static int iterate_once(iterate *it, int k, int *more, error *err)
+{
+    newton_system *s = it->s;
+    newton_report *r = it->report;
+
+    *more = 0;
+    r->iterations = k;
+    r->history[k] = scale_norms(s, it->scale, r->norm);
+    if (!isfinite(r->history[k]))
+        return explain_nan(s, it->time, it->x, err);
+    if (s->talk)
+        s->talk(s->talk_ctx, k, r->history[k], r->norm, k > 0 ? it->length[k - 1] : 0);
+    if (r->history[k] <= it->o->tolerance)
+        TRY(settle(it, k, err));
+    if (r->converged)
+        return 0;
+    if (s->stop && *s->stop) {
+        give_up(r, "stopped by a signal");
+        return 0;
+    }
+    if (k >= it->o->max_iterations || k >= NEWTON_MAX_ITERATIONS || (k > 0 && it->length[k - 1] < 0.01)) {
+        give_up(r, "residual %.2g after %d iterations", r->history[k], k);
+        return 0;
+    }
+    TRY(need_matrix(it, k, err));
+    TRY(correct(it, k, err));
+    TRY(advance(it, k, err));
+    *more = it->length[k] > 0;
+    return 0;
 }
 
 /* Order and ratio at the last iteration that is above round-off. */
@@ -265,79 +319,56 @@ static void observe_order(newton_report *r)
         r->order = log(r->history[k] / r->history[k - 1]) / log(r->history[k - 1] / r->history[k - 2]);
 }
 
+/* With the true matrix Newton's method ends with order two.  Three orders near one in a row, up to the end, mean
+ * another matrix; the report then has their mean.  Counted are whole steps that clearly made the residual fall (so
+ * that neither the way to the solution nor round-off is taken for it), by much less than linear systems solved to a
+ * tolerance allow. */
+static void observe_linear(const iterate *it)
+{
+    enum { IN_A_ROW = 3 };
+    newton_report *r = it->report;
+    const double *h = r->history;
+    double sum = 0;
+    int k = r->iterations, n = 0;
+
+    while (k > 1 && h[k] < LEAST)
+        k--;
+    for (; k > 1 && n < IN_A_ROW; k--, n++) {
+        double fall = h[k] / h[k - 1], before = h[k - 1] / h[k - 2], order = log(fall) / log(before);
+
+        if (h[k - 2] > MOST || it->length[k - 1] < 1 || it->length[k - 2] < 1 || !(fmax(fall, before) < 0.7) ||
+            fall < 10 * it->inexact[k - 1] || before < 10 * it->inexact[k - 2] || order > 1.3)
+            return;
+        sum += order;
+    }
+    if (n == IN_A_ROW) {
+        r->linear_only = 1;
+        r->order = sum / IN_A_ROW;
+    }
+}
+
 int newton_solve(newton_system *s, const newton_time *time, const newton_options *o, double *x,
                  newton_report *report, error *err)
 {
-    const space *sp = s->space;
-    double scale[SPACE_MAX_FIELDS], length = 0;
-    int stalled = 0;
+    iterate it = {.s = s, .time = time, .o = o, .report = report, .x = x, .linear = system_is_linear(s, time)};
+    int64_t evaluations = s->evaluations, matrices = s->matrices;
+    int more = 1, changed, status;
 
     memset(report, 0, sizeof *report);
-    for (int k = 0;; k++) {
-        int status = evaluate(s, time, x, 1, 0, err);
-
-        if (status && err->retry) {
-            snprintf(report->why, sizeof report->why, "%.280s", err->text);
-            return 0;
-        }
-        TRY(status);
-        TRY(gauge_detect(s, err));
-        gauge_project(s, s->residual);
-        field_scales(s, x, NULL, scale);
-        report->iterations = k;
-        report->history[k] = field_norms(s, scale, report->norm);
-        if (!isfinite(report->history[k])) {
-            status = explain_nan(s, time, x, err);
-            if (!err->retry)
-                return status;
-            snprintf(report->why, sizeof report->why, "%.280s", err->text);
-            return 0;
-        }
-        if (s->talk)
-            s->talk(s->talk_ctx, k, report->history[k], report->norm, length);
-        if (report->history[k] <= o->tolerance && gauge_holds(s)) {
-            double change = report->history[k] > 0 && k > 0 ? field_change(s, x, length) : 0;
-
-            if (s->linear.factored && report->history[k] > 0)
-                TRY(polish(s, time, scale, x, report->norm, &change, err));
-            report->converged = change <= LAST_STEP || report->history[k] <= ROUND_OFF;
-            if (report->converged)
-                break;
-        }
-        if (s->stop && *s->stop) {
-            snprintf(report->why, sizeof report->why, "stopped by a signal");
-            break;
-        }
-        if (k >= o->max_iterations || k >= NEWTON_MAX_ITERATIONS || stalled) {
-            snprintf(report->why, sizeof report->why, "residual %.2g after %d iterations", report->history[k], k);
-            break;
-        }
-        for (int64_t i = 0; i < sp->n_free; i++)
-            s->rhs[i] = -s->residual[sp->dof_of[i]];
-        gauge_pin(s);
-        status = linear_solve(&s->linear, s->rhs, s->step, o->linear_tolerance, err);
-        if (status && err->retry) {
-            /* what the equations determine has converged; some unknowns they do not */
-            report->converged = report->singular = k > 0 && report->history[k] <= 100 * o->tolerance;
-            snprintf(report->why, sizeof report->why, "%.280s", err->text);
-            return 0;
-        }
-        TRY(status);
-        field_scales(s, x, s->step, scale);
-        field_norms(s, scale, report->norm);
-        TRY(line_search(s, time, scale, merit(s, report->norm), x, &length, report->norm, err));
-        if (length == 0) {
-            /* round-off: nothing smaller is to be had */
-            if (report->history[k] <= 100 * o->tolerance && k > 0) {
-                report->converged = 1;
-                break;
-            }
-            snprintf(report->why, sizeof report->why, "no step along Newton's direction lowers the residual (%.2g)",
-                     report->history[k]);
-            break;
-        }
-        stalled = length < 0.01;
+    status = form_matrix(&it, &changed, err);
+    if (!status)
+        scale_fields(s, x, NULL, it.scale);
+    for (int k = 0; !status && more; k++)
+        status = iterate_once(&it, k, &more, err);
+    s->last_iterations = report->iterations;
+    report->evaluations = s->evaluations - evaluations;
+    report->matrices = s->matrices - matrices;
+    if (status && err->retry) {
+        give_up(report, "%s", err->text);
+        return 0;
     }
+    TRY(status);
     observe_order(report);
+    observe_linear(&it);
     return 0;
 }

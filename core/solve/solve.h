@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * solve.h -- linear solution with reused factors, Newton's method, continuation, time steps. */
+ * solve.h -- linear solution with reused factors, Newton's method, continuation. */
 #ifndef SOLVE_SOLVE_H
 #define SOLVE_SOLVE_H
 
@@ -27,18 +27,25 @@ typedef struct linear {
     pf_csr a;
     double *value;
     int analyzed, factored; /* factored: there are factors, perhaps of an older matrix */
+    int fresh;              /* the factors are of the matrix of the last solve ...      */
+    int kept;               /* ... and the next one has the same                        */
     int max_iterations;     /* of GMRES with old factors; 0: factor every matrix        */
     int spent;              /* GMRES iterations since the last factorisation            */
     double memory_limit;    /* bytes                                                    */
-    double *v, *z, *r;      /* Krylov vectors                                           */
+    double *v, *z;          /* Krylov vectors                                           */
+    double *r;              /* [n] b - A x of the last solve                            */
     linear_stats stats;
     arena memory;
 } linear;
 
 int linear_create(linear *l, const pf_solver *solver, const space *s, int n_thread, error *err);
 /* Solves A x = b to |b - A x| <= tol |b|: with the factors there are, as preconditioner of GMRES,
- * if that pays, else with fresh ones.  A fresh solve below LINEAR_ACCEPT passes whatever tol is. */
+ * if that pays, else with fresh ones.  A fresh solve below LINEAR_ACCEPT passes whatever tol is.
+ * Errors: ERR_CONVERGE with err->retry if the matrix is singular or nearly so; ERR_PLUGIN if the solver does not
+ * solve. */
 int linear_solve(linear *l, const double *b, double *x, double tol, error *err);
+/* The next linear_solve has the matrix of the last one: it is not factored a second time. */
+void linear_keep(linear *l);
 /* Analyses the pattern: fills stats.cost; ERR_MEMORY if the factors will not fit. */
 int linear_predict(linear *l, error *err);
 /* x = the last factors' answer for b, right or not. */
@@ -46,15 +53,19 @@ int linear_apply(linear *l, const double *b, double *x, error *err);
 void linear_forget(linear *l); /* the next solve factors afresh */
 void linear_destroy(linear *l);
 #define LINEAR_ACCEPT 1e-10
+enum { LINEAR_MAX_ITERATIONS = 30 }; /* of GMRES */
 
 /* --- fields that are fixed up to a constant (gauge.c) --- */
 
 typedef struct gauge {
-    int known;
-    double tolerance;                 /* of the null vector, relative; 0: round-off       */
-    int free[SPACE_MAX_FIELDS];       /* the field has a free constant                    */
-    double *weight[SPACE_MAX_FIELDS]; /* [n_dof] integral of each basis function         */
-    double volume;
+    double tolerance;           /* of the null vector, relative; 0: round-off       */
+    int free[SPACE_MAX_FIELDS]; /* the field has a free constant                    */
+    /* [n_dof] Integral of each basis function over where the field has equations: of the owner, who may
+     * set it at any time; NULL: `whole`, over whole cells. */
+    const double *weight[SPACE_MAX_FIELDS];
+    double *whole[SPACE_MAX_FIELDS];
+    int64_t pin[SPACE_MAX_FIELDS];   /* row of the value that is held                    */
+    double volume;                   /* sum of the weights                               */
     double defect[SPACE_MAX_FIELDS]; /* what was taken out of the residual               */
 } gauge;
 
@@ -70,19 +81,16 @@ typedef struct newton_options {
 
 typedef struct newton_report {
     int iterations, converged;
-    int singular;                              /* converged, but the equations leave some unknowns open */
-    int total;                                 /* iterations of all solves of a continuation */
+    int singular;    /* the equations leave some unknowns open; with `converged`: the others have converged */
+    int linear_only; /* it converges with order one, as with a wrong matrix */
+    int total;       /* iterations of all solves of a continuation */
+    int64_t evaluations, matrices;             /* of the residual; those of them with the matrix */
     double norm[SPACE_MAX_FIELDS];             /* scaled residual of each field, last  */
     double history[NEWTON_MAX_ITERATIONS + 1]; /* largest of them, per iteration        */
     double ratio;                              /* r_{k+1} / r_k^2 of the last iterations */
     double order;                              /* observed order of convergence         */
-    char why[300];                             /* if it did not converge                */
+    char why[600];                             /* if it did not converge                */
 } newton_report;
-
-typedef struct solution {
-    double t, dt;
-    double *x, *dot, *old; /* [n_dof] */
-} solution;
 
 typedef void newton_talk(void *ctx, int iteration, double norm, const double *field_norm, double step);
 
@@ -92,23 +100,27 @@ typedef struct newton_system {
     assembly assembly;
     linear linear;
     gauge gauge;
-    double *residual, *trial, *step, *rhs, *scale, *work; /* [n_dof] */
+    double *residual;                   /* [n_dof] of the last evaluation */
+    double *step;                       /* [n_free] of the last iteration */
+    double *trial, *rhs, *scale, *work; /* [n_dof] room */
     double assemble_seconds;
-    int vanishes[SPACE_MAX_FIELDS];    /* the field is zero but for round-off */
-    const volatile sig_atomic_t *stop; /* not NULL and not 0: end soon        */
+    int64_t evaluations, matrices;      /* since it was created, see newton_report */
+    int last_iterations;                /* of the last solve */
+    int vanishes[SPACE_MAX_FIELDS];     /* the field is zero but for round-off */
+    uint32_t coupled[SPACE_MAX_FIELDS]; /* bit g: equations of the field contain field g */
+    const volatile sig_atomic_t *stop;  /* not NULL and not 0: end soon */
     newton_talk *talk;
     void *talk_ctx;
     arena memory;
 } newton_system;
 
-int gauge_detect(newton_system *s, error *err);
-/* Whether the constants found are still free with the matrix of now; forgets those that are not. */
-int gauge_holds(newton_system *s);
+/* Finds anew, on the matrix just formed, which fields are free; *changed: others than before. */
+int gauge_detect(newton_system *s, int *changed, error *err);
 void gauge_project(newton_system *s, double *residual); /* takes the inconsistent part out */
-void gauge_pin(newton_system *s);                       /* changes the matrix              */
+/* Scaled norm of what that was, largest of all fields. */
+double gauge_excess(const newton_system *s, const double *scale);
+void gauge_pin(newton_system *s); /* changes the matrix              */
 void gauge_zero_mean(const newton_system *s, double *x);
-/* Integral of each basis function of a field; returns the volume. */
-double gauge_weights(const space *s, int field, double *weight);
 
 int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_spec, const pf_solver *solver,
                   int n_thread, error *err);
@@ -133,6 +145,33 @@ int newton_residual(newton_system *s, const newton_time *time, const double *x, 
 /* 0 also when it does not converge (see report); an error only if going on makes no sense. */
 int newton_solve(newton_system *s, const newton_time *time, const newton_options *o, double *x,
                  newton_report *report, error *err);
+
+/* --- between the files of this folder --- */
+
+/* s->residual, and the matrix in s->linear.value, at x; errors and `diagnose` as assembly_run (system.c). */
+int system_evaluate(newton_system *s, const newton_time *time, const double *x, int with_matrix, int diagnose,
+                    error *err);
+/* Whether all terms that take part are linear: the matrix is the same for every x. */
+int system_is_linear(const newton_system *s, const newton_time *time);
+
+/* scale.c.  scale[f], norm[f] are per field; x and s->residual belong together.
+ * Scales from the last matrix; with a step [n_free] the unknowns count with what they are about to become. */
+void scale_fields(newton_system *s, const double *x, const double *step, double *scale);
+/* Scaled s->residual, NaN where it is not finite; returns the largest, NaN if any is.  The same of a free vector.
+ */
+double scale_norms(const newton_system *s, const double *scale, double *norm);
+void scale_norms_free(const newton_system *s, const double *free_, const double *scale, double *norm);
+/* Largest relative change of a field by length s->step; fields that vanish or are free do not count. */
+double scale_change(const newton_system *s, const double *x, double length);
+/* Bit f: the equations of field f depend on a field that has not converged and that does not depend on f. */
+uint32_t scale_waiting(const newton_system *s, const double *norm, double tolerance);
+
+/* explain.c.  Something is not finite at x: the error names who put it there (term and place, or the unknown). */
+int explain_nan(newton_system *s, const newton_time *time, const double *x, error *err);
+/* Whether the linear system that was handed over, matrix and s->rhs, is. */
+int explain_is_finite(const newton_system *s);
+/* Adds to the error which unknowns the matrix leaves open. */
+void explain_singular(newton_system *s, error *err);
 
 /* --- steady states (continuation.c) --- */
 

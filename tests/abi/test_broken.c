@@ -71,7 +71,11 @@ static void answers_as_expected(void **state)
         }                                                                                                          \
     }
 /* plugflow test NAME.so ends with exit code 5 and says the texts. */
-#define TOLD(NAME, ...)   CALL(#NAME "_is_told", "test", #NAME ".so", "", EXIT_PLUGIN, __VA_ARGS__)
+#define TOLD(NAME, ...) CALL(#NAME "_is_told", "test", #NAME ".so", "", EXIT_PLUGIN, __VA_ARGS__)
+/* plugflow run planted.lua --plugin NAME.so ends with this exit code and says the texts. */
+#define RUN(FACT, NAME, CODE, ...)                                                                                 \
+    CALL(FACT, "run \"$PLUGFLOW_SOURCE/tests/abi/planted.lua\" --out \"$PLUGFLOW_BROKEN_DIR/out\" --plugin",       \
+         #NAME ".so", "", CODE, __VA_ARGS__)
 #define LOADS(FACT, FILE) CALL(FACT, "test", FILE, "", EXIT_OK, " 0 failed")
 
 static const struct CMUnitTest tests[] = {
@@ -184,6 +188,19 @@ static const struct CMUnitTest tests[] = {
     TOLD(planted_missing, "WRONG  stress  d grad_v / d p in 2D: missing: the block is zero"),
     TOLD(planted_half, "WRONG  stress  d grad_v / d grad_u in 2D: transpose: ", "is missing"),
     TOLD(planted_residual, "WRONG  stress  example \"grad u = (1 2; 4 -1)", "grad_v[1] is 12, expected 18"),
+
+    /* in a run */
+    RUN("a_sound_plugin_runs", sound, EXIT_OK, "observed order 2."),
+    RUN("a_run_tells_a_jacobian_with_a_wrong_factor", factor, EXIT_OK,
+        "warning: Newton converges with order 1.0 only: some Jacobian block is wrong or missing; plugflow "
+        "jacobian ",
+        "planted.lua compares them one by one"),
+    RUN("a_run_tells_a_jacobian_with_a_block_missing", missing, EXIT_OK, "order 1.0 only"),
+    RUN("a_run_tells_a_transposed_jacobian", transpose, EXIT_OK, "only: some Jacobian block is wrong or missing"),
+    RUN("a_run_names_the_term_with_a_nan", nan_output, EXIT_PLUGIN, "term broken.convection: output \"v\" is ",
+        "nan at x = ("),
+    RUN("a_run_names_the_jacobian_with_a_nan", nan_jacobian, EXIT_PLUGIN,
+        "term broken.convection: derivative of \"v\" by \"u\" is ", "nan at x = ("),
 
     /* names */
     LOADS("copy_of_momentum_passes_on_its_own", "momentum_copy.so"),

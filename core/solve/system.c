@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The nonlinear system: residual and matrix at a state. */
+#include "solve/solve.h"
+
+#include "base/clock.h"
+
+#include <string.h>
+
+_Static_assert(SPACE_MAX_FIELDS <= 32, "newton_system.coupled has a bit per field");
+
+/* Couplings as the terms declare them.  The matrix of one state would not do: a derivative may vanish there. */
+static void couple_fields(newton_system *s, const pf_term *t)
+{
+    for (uint32_t o = 0; o < t->n_out; o++)
+        for (uint32_t k = 0; k < t->n_in; k++)
+            if (term_is_unknown(&t->in[k]) && (!t->depends || t->depends[o * t->n_in + k]))
+                s->coupled[space_find_field(s->space, t->out[o].field)] |=
+                    1u << space_find_field(s->space, t->in[k].field);
+}
+
+int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_spec, const pf_solver *solver,
+                  int n_thread, error *err)
+{
+    memset(s, 0, sizeof *s);
+    s->space = sp;
+    TRY(assembly_create(&s->assembly, sp, spec, n_spec, n_thread, err));
+    TRY(linear_create(&s->linear, solver, sp, n_thread, err));
+    ARENA_NEW(&s->memory, s->residual, sp->n_dof, err);
+    ARENA_NEW(&s->memory, s->trial, sp->n_dof, err);
+    ARENA_NEW(&s->memory, s->step, sp->n_dof, err);
+    ARENA_NEW(&s->memory, s->rhs, sp->n_dof, err);
+    ARENA_NEW(&s->memory, s->scale, sp->n_dof, err);
+    ARENA_NEW(&s->memory, s->work, sp->n_dof, err);
+    for (int k = 0; k < n_spec; k++)
+        for (int u = 0; u < spec[k].n_use; u++)
+            couple_fields(s, spec[k].use[u]->term);
+    return 0;
+}
+
+int system_renew(newton_system *s, error *err)
+{
+    linear_stats stats = s->linear.stats;
+    const pf_solver *solver = s->linear.solver;
+    double limit = s->linear.memory_limit;
+
+    TRY(space_constrain(s->space, err));
+    linear_destroy(&s->linear);
+    TRY(linear_create(&s->linear, solver, s->space, s->assembly.n_thread, err));
+    s->linear.stats = stats;
+    s->linear.memory_limit = limit;
+    return 0;
+}
+
+void system_destroy(newton_system *s)
+{
+    assembly_destroy(&s->assembly);
+    linear_destroy(&s->linear);
+    arena_free(&s->memory);
+    memset(s, 0, sizeof *s);
+}
+
+int system_evaluate(newton_system *s, const newton_time *time, const double *x, int with_matrix, int diagnose,
+                    error *err)
+{
+    const space *sp = s->space;
+    assembly_state st = {.t = time->t,
+                         .dt = time->dt,
+                         .shift = time->shift,
+                         .x = x,
+                         .dot = s->work,
+                         .old = time->old,
+                         .bodies = time->bodies,
+                         .frame = time->frame,
+                         .faded = time->faded,
+                         .only = time->only};
+    double start = clock_seconds();
+    int status;
+
+    for (int64_t d = 0; d < sp->n_dof; d++)
+        s->work[d] = time->history ? time->shift * x[d] + time->history[d] : 0;
+    if (!st.old)
+        st.old = x;
+    status = assembly_run(&s->assembly, &st, s->residual, with_matrix ? s->linear.value : NULL, diagnose, err);
+    s->evaluations++;
+    s->matrices += with_matrix;
+    s->assemble_seconds += clock_seconds() - start;
+    return status;
+}
+
+int system_is_linear(const newton_system *s, const newton_time *time)
+{
+    int linear = 1;
+
+    for (int k = 0; k < s->assembly.n_class; k++)
+        for (int u = 0; u < s->assembly.class_[k].n_use; u++) {
+            const term_use *use = s->assembly.class_[k].use[u].use;
+
+            linear &= (use->term->flags & PF_LINEAR) || ((use->term->flags & PF_CONTINUATION) && time->faded == 1);
+        }
+    return linear;
+}
+
+int newton_residual(newton_system *s, const newton_time *time, const double *x, double *residual, error *err)
+{
+    TRY(system_evaluate(s, time, x, 0, 0, err));
+    memcpy(residual, s->residual, (size_t)s->space->n_dof * sizeof *residual);
+    return 0;
+}
