@@ -183,18 +183,18 @@ static int cut(problem *p, error *err)
         solid whole;
         double(*shift)[3];
         int32_t *cell;
-        int inside;
+        enum cut_cover cover;
 
         for (; a < s->n_attached && s->attached_particle[a] == k; a++) {
             particle image = problem_image(p, a);
             solid here = solid_at(&image.shape, &image.at);
 
             p->surface.now = (int32_t)a;
-            inside = cut_cell(&p->cut, &p->mesh, s->attached_cell[a], &here, p->weight + p->n_covered * p->cut.n,
-                              p->has_surface ? fluid_add_surface : NULL, p);
+            TRY(cut_cell(&p->cut, &p->mesh, s->attached_cell[a], &here, p->weight + p->n_covered * p->cut.n,
+                         p->has_surface ? fluid_add_surface : NULL, p, &cover, err));
             fluid_end_surface(p);
-            if (inside) {
-                p->whole_inside[p->n_covered] = inside == 2;
+            if (cover != CUT_NONE) {
+                p->whole_inside[p->n_covered] = cover == CUT_WHOLE;
                 p->covered[p->n_covered++] = (int32_t)a;
             }
         }
@@ -340,22 +340,6 @@ int problem_cut(problem *p, double *x, error *err)
     return 0;
 }
 
-/* Shifts of the images of a body: by -1, 0 or 1 of each period; zero first. */
-static void list_images(problem *p)
-{
-    const mesh *m = &p->mesh;
-
-    p->n_image = 1;
-    for (int k = 0; k < m->n_period && k < 3; k++) {
-        int n = p->n_image;
-
-        for (int sign = -1; sign <= 1; sign += 2)
-            for (int i = 0; i < n; i++, p->n_image++)
-                for (int c = 0; c < 3; c++)
-                    p->image[p->n_image][c] = p->image[i][c] + sign * m->period_vector[k][c];
-    }
-}
-
 int problem_make_particles(problem *p, error *err)
 {
     if (p->n_particle == 0)
@@ -371,9 +355,8 @@ int problem_make_particles(problem *p, error *err)
 
         fe_basis(p->mesh.type, 2, p->cut.x[q], p->cut_basis + q * p->mesh.type->n_node, ignored);
     }
-    list_images(p);
+    p->n_image = mesh_images(&p->mesh, p->image);
     TRY(fluid_create(p, err));
-    TRY(cell_grid_create(&p->grid, &p->mesh, err));
     ARENA_NEW(&p->memory, p->envelope, 3 * p->n_particle, err);
     for (int i = 0; i < 3; i++)
         ARENA_NEW(&p->memory, p->remembered[i], p->n_particle, err);

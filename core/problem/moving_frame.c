@@ -81,16 +81,10 @@ static void travelled(const moving_body *b, int l, const double *x, double *d)
 /* Cell at x, and where in it; -1: none. */
 static located locate(problem *p, const double *x)
 {
-    located l = {.cell = -1};
     double at[3] = {x[0], x[1], x[2]};
-    int64_t n;
 
     mesh_wrap(&p->mesh, at);
-    n = cell_grid_ball(&p->grid, at, 1e-9 * p->h_mean, p->near_cell);
-    for (int64_t i = 0; i < n && l.cell < 0; i++)
-        if (locate_in_cell(&p->mesh, p->near_cell[i], at, l.xi) > 0)
-            l.cell = p->near_cell[i];
-    return l;
+    return locate_point(&p->mesh, &p->grid, at);
 }
 
 /* Moves a point below the surface to where the level's gradient leads to, and OUT cells out from there; 0, and the

@@ -14,6 +14,21 @@ enum { MOST_TRIES = 200000 };
 static const char *const shape_kinds[] = {"ellipsoid", "box", "cylinder", "superellipsoid", "distance", NULL};
 static const char *const motions[] = {"free", "fixed", "prescribed", NULL};
 
+static int measure(problem *p, const case_block *b, shape *s, error *err)
+{
+    int status = shape_measure(s, &p->memory, err);
+
+    if (status && !shape_check(s, NULL)) /* an error of the function names its line itself */
+        error_prefix(err, "%s:%d: shape: ", b->file, b->line);
+    if (!status && s->accuracy > 1e-4)
+        text_add(
+            &p->c->printed,
+            "warning: %s:%d: shape: volume and moments of inertia of the body are known to %.1g only, its surface "
+            "has edges or is thin against half; a smaller box round it (half = ...) helps\n",
+            b->file, b->line, s->accuracy);
+    return status;
+}
+
 /* The table that disk{}, sphere{}, box{} ... return (see the prelude), on top of the stack; pops it. */
 static int read_shape(problem *p, const case_block *b, shape *s, error *err)
 {
@@ -44,10 +59,10 @@ static int read_shape(problem *p, const case_block *b, shape *s, error *err)
             reader_value(&r, "distance", "signed distance, function of x, y[, z]", 1, p->dim, &s->distance));
     if (s->kind == SHAPE_CYLINDER && p->dim == 2)
         case_wrong(p->c, b, "shape", "shape: a cylinder needs three dimensions; in 2D use disk{} or rectangle{}");
-    if (s->kind == SHAPE_SUPERELLIPSOID && !(s->exponent[0] >= 1))
+    if (s->kind == SHAPE_SUPERELLIPSOID && !(s->exponent[0] >= 1 && (p->dim == 2 || s->exponent[1] >= 1)))
         case_wrong(p->c, b, "shape", "shape: exponents of a superellipsoid must be at least 1");
     reader_close(&r);
-    return p->c->n_error ? 0 : shape_measure(s, err);
+    return p->c->n_error ? 0 : measure(p, b, s, err);
 }
 
 static void read_hold(problem *p, reader *r, particle *q)

@@ -95,6 +95,7 @@ int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *e
     TRY(case_finish(c, err));
     TRY(problem_make_mesh(p, err));
     TRY(make_periodic(p, err));
+    TRY(cell_grid_create(&p->grid, &p->mesh, err));
     p->space.n_particle = p->n_particle;
     TRY(space_number(&p->space, &p->mesh, err));
     ARENA_NEW(&p->memory, p->x, p->space.n_dof, err);

@@ -5,6 +5,7 @@
 #define PROBLEM_PROBLEM_H
 
 #include "case/case.h"
+#include "mesh/cell_grid.h"
 #include "mesh/mesh.h"
 #include "solve/solve.h"
 #include "space/space.h"

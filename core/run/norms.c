@@ -5,6 +5,8 @@
  * zero mean on both sides. */
 #include "run/run.h"
 
+#include "space/evaluate.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,36 +37,12 @@ typedef struct point_data {
 /* A point of cell e: where it is, and u_h and its gradient there. */
 static void at_point(const problem *p, int f, int64_t e, const double *xi, double weight, point_data *d)
 {
-    const mesh *m = &p->mesh;
-    const fe_cell *c = m->type;
-    const space_field *g = &p->space.field[f];
-    double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], j[3][3], inv[3][3], det;
-    int dim = p->dim, n_basis = fe_n_basis(c, g->order);
+    double det;
 
-    fe_basis(c, 2, xi, n, dn);
-    memset(d, 0, sizeof *d);
-    det = mesh_map(m, e, n, (const double(*)[3])dn, d->x, j);
-    for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++) {
-            int r = (b + 1) % 3, s = (b + 2) % 3, u = (a + 1) % 3, v = (a + 2) % 3;
-
-            inv[a][b] = j[r][u] * j[s][v] - j[r][v] * j[s][u];
-        }
+    space_evaluate(&p->space, f, p->x, e, xi,
+                   &(point_values){.value = d->value, .gradient = d->gradient, .place = d->x, .det = &det});
     d->w = weight * det;
-    d->h = m->h[e];
-    fe_basis(c, g->order, xi, n, dn);
-    for (int i = 0; i < n_basis; i++) {
-        int64_t node = g->order == 0 ? m->n_node : m->cell[e * c->n_node + (g->order == 2 ? i : c->vertex[i])];
-
-        for (int k = 0; k < g->n_comp; k++) {
-            double u = p->x[p->space.first[f][node] + k];
-
-            d->value[k] += n[i] * u;
-            for (int a = 0; a < dim; a++)
-                for (int b = 0; b < dim; b++)
-                    d->gradient[k * dim + a] += u * dn[i][b] * inv[b][a] / det;
-        }
-    }
+    d->h = p->mesh.h[e];
 }
 
 /* Points and weights on the reference cell. */
@@ -78,10 +56,10 @@ enum { FINE_2D = 8, FINE_3D = 4, GAUSS = 3 }; /* sub-cells and points in each, p
 /* All of a cell cut fine; simplices are boxes collapsed. */
 static int fine_points(int dim, int simplex, point_list *l, error *err)
 {
-    static const double g[3] = {-0.77459666924148337704, 0, 0.77459666924148337704},
-                        w[3] = {5 / 9.0, 8 / 9.0, 5 / 9.0};
     int m = (dim == 2 ? FINE_2D : FINE_3D) * GAUSS;
+    double g[GAUSS], w[GAUSS];
 
+    TRY(fe_gauss(GAUSS, g, w, err));
     l->n = dim == 2 ? m * m : m * m * m;
     l->x = malloc((size_t)l->n * sizeof *l->x);
     l->w = malloc((size_t)l->n * sizeof *l->w);
@@ -163,6 +141,8 @@ static int add_cells(const problem *p, int f, double t, const point_list *whole,
                 TRY(add_point(p, f, t, &d, s, err));
         }
     }
+    for (int k = 0; k < p->n_particle; k++)
+        TRY(shape_check(&p->particle[k].shape, err));
     return 0;
 }
 
@@ -203,11 +183,10 @@ static void add_bodies(const problem *p, int f, double *sum, double *volume)
                 int64_t a = p->covered[k];
                 int body = s->attached_particle[a];
                 for (int q = 0; q < p->cut.n; q++) {
-                    double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], x[3], j[3][3], v[3], w;
+                    double x[3], j[3][3], v[3];
+                    double w =
+                        p->weight[k * p->cut.n + q] * mesh_place(&p->mesh, s->attached_cell[a], p->cut.x[q], x, j);
 
-                    fe_basis(p->mesh.type, 2, p->cut.x[q], n, dn);
-                    w = p->weight[k * p->cut.n + q] *
-                        mesh_map(&p->mesh, s->attached_cell[a], n, (const double(*)[3])dn, x, j);
                     for (int i = 0; i < p->dim; i++)
                         x[i] -= p->shift[a][i];
                     problem_motion(p, p->x, body, x, v);

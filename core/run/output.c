@@ -149,7 +149,7 @@ static int locate_probes(run *r, error *err)
 
     ARENA_NEW(&p->memory, r->probe_at, o->n_probe + 1, err);
     for (int i = 0; i < o->n_probe; i++) {
-        r->probe_at[i] = locate_point(&p->mesh, o->probe[i].x);
+        r->probe_at[i] = locate_point(&p->mesh, &p->grid, o->probe[i].x);
         if (r->probe_at[i].cell < 0)
             return error_set(err, ERR_CASE, "%s:%d: output: probe \"%s\" at %s lies outside the mesh",
                              o->block->file, o->block->line, o->probe[i].name, text_point(o->probe[i].x, p->dim).s);
@@ -172,7 +172,7 @@ static int locate_lines(run *r, error *err)
 
             for (int d = 0; d < 3; d++)
                 x[d] = q->from[d] + (q->to[d] - q->from[d]) * k / (q->n - 1);
-            r->line_at[i][k] = locate_point(&p->mesh, x);
+            r->line_at[i][k] = locate_point(&p->mesh, &p->grid, x);
         }
     }
     return 0;

@@ -243,6 +243,8 @@ int particles_outline(run *r, error *err)
     status = s.failed ? error_memory(err, path, 0) : file_write(path, s.s, s.n, err);
     text_free(&s);
     TRY(status);
+    for (int k = 0; k < n; k++)
+        TRY(shape_check(&p->particle[k].shape, err)); /* the outline met its level */
     more = realloc(r->body_file, (size_t)(r->n_body_file + 1) * sizeof *more);
     if (!more || !(more[r->n_body_file] = strdup(name)))
         return error_memory(err, path, 0);
