@@ -228,21 +228,6 @@ static void volume_centroid_and_inertia_are_exact(void **state)
         }
 }
 
-static void formulas_agree_with_quadrature(void **state)
-{
-    error err;
-
-    (void)state;
-    for (int dim = 2; dim <= 3; dim++) {
-        particle disk = body(dim, SHAPE_ELLIPSOID), general = body(dim, SHAPE_SUPERELLIPSOID);
-
-        general.shape.exponent[0] = general.shape.exponent[1] = 2;
-        assert_int_equal(shape_measure(&general.shape, &memory, &err), 0);
-        assert_true(fabs(general.shape.volume / disk.shape.volume - 1) < 1e-3);
-        assert_true(fabs(general.shape.moment[0][0] / disk.shape.moment[0][0] - 1) < 1e-3);
-    }
-}
-
 /* A body turned in many small steps about an axis is where one turn puts it. */
 static void small_turns_add_up(void **state)
 {
@@ -262,7 +247,6 @@ int main(void)
         cmocka_unit_test(volume_and_surface_of_smooth_bodies),
         cmocka_unit_test(surface_of_bodies_with_edges),
         cmocka_unit_test(volume_centroid_and_inertia_are_exact),
-        cmocka_unit_test(formulas_agree_with_quadrature),
         cmocka_unit_test(small_turns_add_up),
     };
 

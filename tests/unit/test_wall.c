@@ -165,8 +165,8 @@ static void a_place_behind_a_wall_has_a_negative_distance(void **state)
 
 /* --- an edge that sticks out into the fluid --- */
 
-/* The upper half of the unit square opened up round the middle of its lower side: a wedge of solid, its tip at
- * (0.5, 0), points up into the fluid. */
+/* The unit square opened up round the middle of its lower side, from half a turn to three quarters: a wedge of
+ * solid, its tip at (0.5, 0), points up into the fluid. */
 static void round_a_wedge(double *x)
 {
     double r = fmax(fabs(x[0] - 0.5), x[1]), s; /* the square's rings become rings of the wedge */
