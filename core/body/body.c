@@ -7,22 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Shifts of the images of a body: by -1, 0 or 1 of each period; zero first. */
-static void list_images(bodies *b)
-{
-    const mesh *m = b->space->mesh;
-
-    b->n_image = 1;
-    for (int k = 0; k < m->n_period && k < 3; k++) {
-        int n = b->n_image;
-
-        for (int sign = -1; sign <= 1; sign += 2)
-            for (int i = 0; i < n; i++, b->n_image++)
-                for (int c = 0; c < 3; c++)
-                    b->image[b->n_image][c] = b->image[i][c] + sign * m->period_vector[k][c];
-    }
-}
-
 /* Which fields have equations in the fluid only: there is none for them where there is no fluid. */
 static void find_fields(bodies *b)
 {
@@ -90,7 +74,8 @@ static void warn_resolution(const bodies *b)
     }
 }
 
-int bodies_create(bodies *b, const description *d, space *s, const conditions *c, warning_list *w, error *err)
+int bodies_create(bodies *b, const description *d, space *s, const cell_grid *grid, const conditions *c,
+                  warning_list *w, error *err)
 {
     enum placement_change ignored;
     pose *start;
@@ -100,6 +85,7 @@ int bodies_create(bodies *b, const description *d, space *s, const conditions *c
     b->spec = d->body;
     b->description = d;
     b->space = s;
+    b->grid = grid;
     b->conditions = c;
     b->warnings = w;
     if (b->n == 0)
@@ -118,15 +104,21 @@ int bodies_create(bodies *b, const description *d, space *s, const conditions *c
     }
     TRY(cut_rule_create(&b->cut, s->mesh->type, err));
     TRY(cut_basis(b, err));
-    list_images(b);
+    b->n_image = mesh_images(s->mesh, b->image);
     ARENA_NEW(&b->memory, b->near_cell, s->mesh->n_cell, err);
     ARENA_NEW(&b->memory, b->envelope.first_tie, s->mesh->n_cell, err);
-    TRY(cell_grid_create(&b->grid, s->mesh, err));
     TRY(active_create(b, err));
     TRY(paths_create(b, err));
     bodies_hold(b);
     TRY(bodies_place(b, start, &ignored, err));
     warn_resolution(b);
+    return 0;
+}
+
+int bodies_check(const bodies *b, error *err)
+{
+    for (int k = 0; k < b->n; k++)
+        TRY(shape_check(&b->spec[k].shape, err));
     return 0;
 }
 
@@ -136,7 +128,6 @@ void bodies_destroy(bodies *b)
     free(b->envelope.next_tie);
     arena_free(&b->envelope.memory);
     cut_rule_destroy(&b->cut);
-    cell_grid_destroy(&b->grid);
     arena_free(&b->memory);
     memset(b, 0, sizeof *b);
 }

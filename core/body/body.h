@@ -114,7 +114,7 @@ typedef struct bodies {
     int field_velocity, field_spin; /* of the bodies, or -1 */
     int has_surface, has_ties, has_pairs, any_fluid_only;
     int fluid_only[SPACE_MAX_FIELDS]; /* fields with equations in the fluid only */
-    cell_grid grid;
+    const cell_grid *grid;
     cut_rule cut;
     double *cut_basis;      /* second-order basis at the points of the cut rule */
     double *whole, *inside; /* [n_node] int phi_i^2 over the domain and over bodies; NULL: no field is restricted */
@@ -141,10 +141,13 @@ enum placement_change {
 };
 
 /* Finds what stays, and places the bodies where they start. */
-int bodies_create(bodies *b, const description *d, space *s, const conditions *c, warning_list *w, error *err);
+int bodies_create(bodies *b, const description *d, space *s, const cell_grid *grid, const conditions *c,
+                  warning_list *w, error *err);
 void bodies_destroy(bodies *b);
 /* b->now = the bodies at these poses [n].  ERR_CONVERGE if one has left the domain. */
 int bodies_place(bodies *b, const pose *at, enum placement_change *change, error *err);
+/* The error that a function `distance` of a body raised where its level was asked for since it was placed, or 0. */
+int bodies_check(const bodies *b, error *err);
 /* Zeroes unknowns that a placement leaves no equation: scalars of the fluid, and fields inside of bodies. */
 void bodies_clear(const bodies *b, const placement *p, double *x);
 

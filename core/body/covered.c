@@ -55,15 +55,14 @@ static int cut_body(const bodies *b, placement *p, int k, int64_t *a, error *err
 
     for (; *a < s->n_attached && s->attached_particle[*a] == k; ++*a) {
         solid here = body_image(b, p, *a);
-        int inside;
+        enum cut_cover cover;
 
         surface_begin(&p->surface, (int32_t)*a);
-        inside =
-            cut_cell(&b->cut, s->mesh, s->attached_cell[*a], &here, p->covered_weight + p->n_covered * b->cut.n,
-                     b->has_surface ? surface_add : NULL, &p->surface);
+        TRY(cut_cell(&b->cut, s->mesh, s->attached_cell[*a], &here, p->covered_weight + p->n_covered * b->cut.n,
+                     b->has_surface ? surface_add : NULL, &p->surface, &cover, err));
         surface_end(&p->surface);
-        if (inside) {
-            p->covers_all[p->n_covered] = inside == 2;
+        if (cover != CUT_NONE) {
+            p->covers_all[p->n_covered] = cover == CUT_WHOLE;
             p->covered[p->n_covered++] = (int32_t)*a;
         }
     }

@@ -36,7 +36,7 @@ static int64_t list_pairs(bodies *b, const pose *at, int32_t *cell, int32_t *bod
     for (int k = 0; k < b->n; k++)
         for (int j = 0; j < b->n_image; j++) {
             double x[3] = {at[k].x[0] + b->image[j][0], at[k].x[1] + b->image[j][1], at[k].x[2] + b->image[j][2]};
-            int64_t here = cell_grid_ball(&b->grid, x, b->spec[k].shape.radius + MARGIN * b->h_mean, b->near_cell);
+            int64_t here = cell_grid_ball(b->grid, x, b->spec[k].shape.radius + MARGIN * b->h_mean, b->near_cell);
 
             for (int64_t i = 0; cell && i < here; i++) {
                 cell[n + i] = b->near_cell[i];

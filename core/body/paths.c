@@ -79,16 +79,10 @@ static void travelled(const moving_body *b, int l, const double *x, double *d)
 /* Cell at x, and where in it; -1: none. */
 static located locate(const bodies *b, const double *x)
 {
-    located l = {.cell = -1};
     double at[3] = {x[0], x[1], x[2]};
-    int64_t n;
 
     mesh_wrap(b->space->mesh, at);
-    n = cell_grid_ball((cell_grid *)&b->grid, at, 1e-9 * b->h_mean, b->near_cell);
-    for (int64_t i = 0; i < n && l.cell < 0; i++)
-        if (locate_in_cell(b->space->mesh, b->near_cell[i], at, l.xi) > 0)
-            l.cell = b->near_cell[i];
-    return l;
+    return locate_point(b->space->mesh, b->grid, at);
 }
 
 /* Moves a point below the surface to where the level's gradient leads to, and OUT cells out from there; 0, and the
@@ -338,7 +332,7 @@ const moving_frame *bodies_paths(bodies *b, const placement *now, int levels, co
     for (int i = 0; i < t->n; i++) {
         const solid *q = &t->body[i].here;
         int64_t n = t->body[i].moves
-                        ? cell_grid_ball(&b->grid, q->at.x, q->shape->radius + REACH * b->h_mean, b->near_cell)
+                        ? cell_grid_ball(b->grid, q->at.x, q->shape->radius + REACH * b->h_mean, b->near_cell)
                         : 0;
 
         for (int64_t k = 0; k < n; k++)

@@ -102,7 +102,7 @@ static int candidates(const bodies *b, const placement *p, int32_t bad, double r
     outward(b, p, bad, x, out);
     for (int i = 0; i < b->n_image; i++) {
         double at[3] = {x[0] + b->image[i][0], x[1] + b->image[i][1], x[2] + b->image[i][2]};
-        int64_t found = cell_grid_ball((cell_grid *)&b->grid, at, reach, b->near_cell);
+        int64_t found = cell_grid_ball(b->grid, at, reach, b->near_cell);
 
         for (int64_t k = 0; k < found; k++) {
             candidate one = {.cell = b->near_cell[k]};

@@ -15,6 +15,22 @@ enum { MOST_TRIES = 200000 };
 static const char *const shape_kinds[] = {"ellipsoid", "box", "cylinder", "superellipsoid", "distance", NULL};
 static const char *const motions[] = {"free", "fixed", "prescribed", NULL};
 
+/* Volume, moments and reach of a shape; a warning if they are not exact. */
+static int measure(description *d, const case_block *b, shape *s, error *err)
+{
+    int status = shape_measure(s, &d->memory, err);
+
+    if (status && !shape_check(s, NULL)) /* an error of the function names its line itself */
+        error_prefix(err, "%s:%d: shape: ", b->file, b->line);
+    if (!status && s->accuracy > 1e-4)
+        warning_add(
+            &d->warnings,
+            "%s:%d: shape: volume and moments of inertia of the body are known to %.1g only, its surface has "
+            "edges or is thin against half; a smaller box round it (half = ...) helps",
+            b->file, b->line, s->accuracy);
+    return status;
+}
+
 /* The table that disk{}, sphere{}, box{} ... return (see the prelude), on top of the stack; pops it. */
 static int read_shape(description *d, const case_block *b, shape *s, error *err)
 {
@@ -55,10 +71,10 @@ static int read_shape(description *d, const case_block *b, shape *s, error *err)
             reader_value(&r, "distance", "signed distance, function of x, y[, z]", 1, d->dim, &s->distance));
     if (s->kind == SHAPE_CYLINDER && d->dim == 2)
         case_wrong(d->c, b, "shape", "shape: a cylinder needs three dimensions; in 2D use disk{} or rectangle{}");
-    if (s->kind == SHAPE_SUPERELLIPSOID && !(s->exponent[0] >= 1 && s->exponent[1] >= 1))
+    if (s->kind == SHAPE_SUPERELLIPSOID && !(s->exponent[0] >= 1 && (d->dim == 2 || s->exponent[1] >= 1)))
         case_wrong(d->c, b, "shape", "shape: exponents of a superellipsoid must be at least 1");
     reader_close(&r);
-    return d->c->n_error ? 0 : shape_measure(s, err);
+    return d->c->n_error ? 0 : measure(d, b, s, err);
 }
 
 static void read_hold(description *d, reader *r, body_spec *q)

@@ -31,6 +31,7 @@ int describe_has(const description *d, int where)
 
 void describe_destroy(description *d)
 {
+    warning_free(&d->warnings);
     arena_free(&d->memory);
     memset(d, 0, sizeof *d);
 }

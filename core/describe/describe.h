@@ -7,6 +7,7 @@
 #ifndef DESCRIBE_DESCRIBE_H
 #define DESCRIBE_DESCRIBE_H
 
+#include "base/warning.h"
 #include "case/case.h"
 #include "mesh/mesh.h"
 #include "particle/particle.h"
@@ -113,6 +114,7 @@ typedef struct description {
     time_spec time;
     output_spec output;
     solve_spec solve;
+    warning_list warnings; /* of what was read; whoever makes a problem of it goes on with the list */
     arena memory;
 } description;
 

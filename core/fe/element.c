@@ -148,9 +148,11 @@ static void tensor_basis(int dim, int order, const double *xi, double *n, double
             }
 }
 
+/* Middles of edges of a simplex, after its vertices: the vertices they lie between. */
+static const int simplex_edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+
 static void simplex_basis(int dim, int order, const double *xi, double *n, double (*dn)[3])
 {
-    static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
     double b[4] = {1, 0, 0, 0}, db[4][3] = {{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     int nv = dim + 1, ne = dim == 2 ? 3 : 6;
 
@@ -164,7 +166,7 @@ static void simplex_basis(int dim, int order, const double *xi, double *n, doubl
             dn[i][k] = order == 2 ? (4 * b[i] - 1) * db[i][k] : db[i][k];
     }
     for (int e = 0; order == 2 && e < ne; e++) {
-        int p = edge[e][0], q = edge[e][1];
+        int p = simplex_edge[e][0], q = simplex_edge[e][1];
 
         n[nv + e] = 4 * b[p] * b[q];
         for (int k = 0; k < 3; k++)
@@ -182,4 +184,19 @@ void fe_basis(const fe_cell *c, int order, const double *xi, double *n, double (
     } else {
         tensor_basis(c->dim, order, xi, n, dn);
     }
+}
+
+void fe_bernstein(const fe_cell *c, double *v)
+{
+    int nv = c->n_vertex;
+
+    if (c->simplex) {
+        for (int e = 0; nv + e < c->n_node; e++)
+            v[nv + e] = 2 * v[nv + e] - 0.5 * (v[simplex_edge[e][0]] + v[simplex_edge[e][1]]);
+        return;
+    }
+    for (int k = 0, step = 1; k < c->dim; k++, step *= 3) /* line by line, one direction after the other */
+        for (int i = 0; i < c->n_node; i++)
+            if (i / step % 3 == 1)
+                v[i] = 2 * v[i] - 0.5 * (v[i - step] + v[i + step]);
 }

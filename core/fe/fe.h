@@ -36,6 +36,15 @@ int fe_n_basis(const fe_cell *c, int order);
 /* Values n[i] and reference gradients dn[i][dim] of the basis of the order at xi. */
 void fe_basis(const fe_cell *c, int order, const double *xi, double *n, double (*dn)[3]);
 
+/* Nodal values of a function of second order, [n_node], to its Bernstein coefficients in place.  The function's
+ * values on the cell lie between the smallest and the largest of them. */
+void fe_bernstein(const fe_cell *c, double *v);
+
+enum { FE_MAX_GAUSS = 8 };
+
+/* The n Gauss-Legendre points on [-1, 1], ascending, and their weights; 1 <= n <= FE_MAX_GAUSS. */
+int fe_gauss(int n, double *x, double *w, error *err);
+
 /* Quadrature on the reference cell. */
 typedef struct fe_rule {
     int n;

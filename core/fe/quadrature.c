@@ -8,17 +8,18 @@
 #include <math.h>
 #include <string.h>
 
-static int gauss_line(int degree, int *n, double *x, double *w, error *err)
+enum { MAX_DEGREE = 7 };
+
+int fe_gauss(int n, double *x, double *w, error *err)
 {
     gsl_integration_glfixed_table *table;
 
-    *n = degree / 2 + 1;
-    if (*n > 4)
-        return error_set(err, ERR_USAGE, "no quadrature of degree %d", degree);
-    table = gsl_integration_glfixed_table_alloc((size_t)*n);
+    if (n < 1 || n > FE_MAX_GAUSS)
+        return error_set(err, ERR_USAGE, "no Gauss rule of %d points; 1 to %d are possible", n, FE_MAX_GAUSS);
+    table = gsl_integration_glfixed_table_alloc((size_t)n);
     if (!table)
         return error_memory(err, "quadrature", 0);
-    for (int i = 0; i < *n; i++)
+    for (int i = 0; i < n; i++)
         gsl_integration_glfixed_point(-1, 1, (size_t)i, &x[i], &w[i], table);
     gsl_integration_glfixed_table_free(table);
     return 0;
@@ -34,10 +35,12 @@ static void add_point(fe_rule *r, double w, double x, double y, double z)
 
 static int rule_box(int dim, int degree, fe_rule *r, error *err)
 {
-    double x[4], w[4];
-    int n;
+    double x[FE_MAX_GAUSS], w[FE_MAX_GAUSS];
+    int n = degree / 2 + 1;
 
-    TRY(gauss_line(degree, &n, x, w, err));
+    if (degree > MAX_DEGREE)
+        return error_set(err, ERR_USAGE, "no quadrature of degree %d; at most %d", degree, MAX_DEGREE);
+    TRY(fe_gauss(n, x, w, err));
     for (int c = 0; c < (dim > 2 ? n : 1); c++)
         for (int b = 0; b < (dim > 1 ? n : 1); b++)
             for (int a = 0; a < n; a++)

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Meshes as read from files, sizes and orientation of cells, periodic boundaries. */
-#include "base/text.h"
+ * Meshes as read from files, places in cells, sizes and orientation of cells. */
 #include "mesh/mesh.h"
 
+#include "base/dense.h"
 #include "base/order.h"
+#include "base/text.h"
 
 #include <plugflow/mesh.h>
 
@@ -12,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MEASURE_DEGREE = 5 };
+enum { MEASURE_DEGREE = 5, MOST_NODES = INT32_MAX / 4, MOST_CELLS = INT32_MAX / 8 };
 
 int mesh_find_name(const mesh *m, const char *name)
 {
@@ -44,8 +45,15 @@ double mesh_map(const mesh *m, int64_t cell, const double *n, const double (*dn)
             for (int b = 0; b < m->dim; b++)
                 j[a][b] += at * dn[i][b];
         }
-    return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) - j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
-           j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
+    return dense_determinant((const double(*)[3])j);
+}
+
+double mesh_place(const mesh *m, int64_t cell, const double *xi, double x[3], double j[3][3])
+{
+    double n[FE_MAX_NODES], dn[FE_MAX_NODES][3];
+
+    fe_basis(m->type, 2, xi, n, dn);
+    return mesh_map(m, cell, n, (const double(*)[3])dn, x, j);
 }
 
 int mesh_measure(mesh *m, error *err)
@@ -95,85 +103,138 @@ static int by_local(const void *a, const void *b)
     return f->local != g->local ? f->local - g->local : (f->cell > g->cell) - (f->cell < g->cell);
 }
 
-/* All facets that only one cell has are boundary; the file's names are attached to them. */
-static int find_boundary(mesh *m, const pf_mesh_data *data, const char *source, error *err)
+static void sort_vertices(facet_key *k, int n)
+{
+    qsort(k->vertex, (size_t)n, sizeof *k->vertex, order_int32);
+}
+
+/* Facets that only one cell has are boundary; key: room for all facets of all cells, the first *n are found. */
+static void find_outer(const mesh *m, facet_key *key, int64_t *n)
 {
     const fe_cell *c = m->type;
-    int64_t n = m->n_cell * c->n_facet, n_boundary = 0;
-    facet_key *key;
+    int64_t all = m->n_cell * c->n_facet;
 
-    ARENA_NEW(&m->memory, key, n, err);
     for (int64_t e = 0, i = 0; e < m->n_cell; e++)
         for (int f = 0; f < c->n_facet; f++, i++) {
-            memset(key[i].vertex, 0xff, sizeof key[i].vertex);
+            key[i] = (facet_key){.vertex = {-1, -1, -1, -1}, .cell = (int32_t)e, .local = f};
             for (int v = 0; v < c->facet_vertices; v++)
                 key[i].vertex[v] = m->cell[e * c->n_node + c->facet[f][v]];
-            qsort(key[i].vertex, (size_t)c->facet_vertices, sizeof(int32_t), order_int32);
-            key[i].cell = (int32_t)e;
-            key[i].local = f;
+            sort_vertices(&key[i], c->facet_vertices);
         }
-    qsort(key, (size_t)n, sizeof *key, by_vertices);
-    for (int64_t i = 0; i < n; i++) {
-        if (i + 1 < n && by_vertices(&key[i], &key[i + 1]) == 0)
+    qsort(key, (size_t)all, sizeof *key, by_vertices);
+    *n = 0;
+    for (int64_t i = 0; i < all; i++) {
+        if (i + 1 < all && by_vertices(&key[i], &key[i + 1]) == 0)
             i++;
         else
-            key[n_boundary++] = key[i];
+            key[(*n)++] = key[i];
     }
-    for (int64_t i = 0; i < data->n_facet; i++) {
-        facet_key wanted, *found;
+}
 
-        memset(wanted.vertex, 0xff, sizeof wanted.vertex);
-        for (uint32_t v = 0; v < data->facet_vertices; v++)
-            wanted.vertex[v] = (int32_t)data->facet[i * data->facet_vertices + v];
-        qsort(wanted.vertex, data->facet_vertices, sizeof(int32_t), order_int32);
-        found = bsearch(&wanted, key, (size_t)n_boundary, sizeof *key, by_vertices);
+/* Attaches the file's names to the boundary facets. */
+static int name_facets(const mesh *m, const pf_mesh_data *data, const char *source, facet_key *key, int64_t n,
+                       error *err)
+{
+    int n_vertex = m->type->facet_vertices;
+
+    for (int64_t i = 0; i < data->n_facet; i++) {
+        facet_key wanted = {.vertex = {-1, -1, -1, -1}}, *found;
+
+        if (data->facet_name[i] < 0 || data->facet_name[i] >= data->n_name)
+            return error_set(err, ERR_MESH, "%s: facet %lld has name number %d of %d", source, (long long)i,
+                             data->facet_name[i], data->n_name);
+        for (int v = 0; v < n_vertex; v++) {
+            int64_t node = data->facet[i * n_vertex + v];
+
+            if (node < 0 || node >= m->n_node)
+                return error_set(err, ERR_MESH, "%s: facet %lld refers to node %lld of %lld", source, (long long)i,
+                                 (long long)node, (long long)m->n_node);
+            wanted.vertex[v] = (int32_t)node;
+        }
+        sort_vertices(&wanted, n_vertex);
+        found = bsearch(&wanted, key, (size_t)n, sizeof *key, by_vertices);
         if (!found)
             return error_set(err, ERR_MESH,
                              "%s: boundary \"%s\" has a facet inside the mesh; name outer facets only", source,
                              data->name[data->facet_name[i]]);
         found->names |= (uint64_t)1 << data->facet_name[i];
     }
-    ARENA_NEW(&m->memory, m->facet, n_boundary, err);
-    m->n_facet = n_boundary;
-    for (int64_t i = 0; i < n_boundary; i++)
+    return 0;
+}
+
+static int find_boundary(mesh *m, const pf_mesh_data *data, const char *source, arena *room, error *err)
+{
+    facet_key *key;
+
+    ARENA_NEW(room, key, m->n_cell * m->type->n_facet, err);
+    find_outer(m, key, &m->n_facet);
+    TRY(name_facets(m, data, source, key, m->n_facet, err));
+    ARENA_NEW(&m->memory, m->facet, m->n_facet, err);
+    for (int64_t i = 0; i < m->n_facet; i++)
         m->facet[i] = (mesh_facet){key[i].cell, key[i].local, key[i].names};
-    qsort(m->facet, (size_t)n_boundary, sizeof *m->facet, by_local);
+    qsort(m->facet, (size_t)m->n_facet, sizeof *m->facet, by_local);
+    return 0;
+}
+
+/* Whether what the reader returned is of sane size, and all there. */
+static int check_data(const pf_mesh_data *data, const fe_cell *type, const char *source, error *err)
+{
+    if (!type || type->dim != (int)data->dim)
+        return error_set(err, ERR_MESH, "%s: the reader returned an unknown cell type %u", source, data->type);
+    if (data->n_node < 1 || data->n_cell < 1 || data->n_node > MOST_NODES || data->n_cell > MOST_CELLS)
+        return error_set(err, ERR_MESH,
+                         "%s: %lld cells and %lld nodes; a mesh needs at least one cell, and this build numbers at "
+                         "most %d cells and %d nodes",
+                         source, (long long)data->n_cell, (long long)data->n_node, MOST_CELLS, MOST_NODES);
+    if (data->n_name < 0 || data->n_name > MESH_MAX_NAMES)
+        return error_set(err, ERR_MESH, "%s: %d boundary names, at most %d are possible", source, data->n_name,
+                         MESH_MAX_NAMES);
+    if (data->n_facet < 0 || (data->n_facet > 0 && (int)data->facet_vertices != type->facet_vertices))
+        return error_set(err, ERR_MESH, "%s: the reader returned %lld facets of %u vertices; those of a %s have %d",
+                         source, (long long)data->n_facet, data->facet_vertices, type->name, type->facet_vertices);
+    if (!data->x || !data->cell || !data->reference || (data->n_facet > 0 && (!data->facet || !data->facet_name)) ||
+        (data->n_name > 0 && !data->name))
+        return error_set(err, ERR_MESH, "%s: the reader returned sizes without arrays", source);
+    for (int64_t i = 0; i < data->n_node * (int64_t)data->dim; i++)
+        if (!isfinite(data->x[i]))
+            return error_set(err, ERR_MESH, "%s: a coordinate of node %lld is not a finite number", source,
+                             (long long)(i / data->dim));
+    return 0;
+}
+
+/* order[i]: which of the reader's nodes is node i of the cell, by their reference coordinates. */
+static int match_nodes(const pf_mesh_data *data, const fe_cell *type, const char *source, int *order, error *err)
+{
+    for (int i = 0; i < type->n_node; i++) {
+        order[i] = -1;
+        for (int k = 0; k < type->n_node; k++) {
+            double d = 0;
+
+            for (int a = 0; a < type->dim; a++)
+                d += fabs(data->reference[k * type->dim + a] - type->x[i][a]);
+            order[i] = d < 1e-6 ? k : order[i];
+        }
+        if (order[i] < 0)
+            return error_set(err, ERR_MESH, "%s: the reader's %s has no node at (%g, %g, %g)", source, type->name,
+                             type->x[i][0], type->x[i][1], type->x[i][2]);
+    }
     return 0;
 }
 
 int mesh_create_from_data(const pf_mesh_data *data, const char *source, mesh *m, error *err)
 {
-    int order[FE_MAX_NODES];
+    int order[FE_MAX_NODES], status;
+    arena room = {0};
 
     memset(m, 0, sizeof *m);
+    TRY(check_data(data, fe_cell_of((int)data->type), source, err));
     m->dim = (int)data->dim;
     m->type = fe_cell_of((int)data->type);
-    if (!m->type || m->type->dim != m->dim)
-        return error_set(err, ERR_MESH, "%s: the reader returned an unknown cell type %u", source, data->type);
-    if (data->n_node < 1 || data->n_cell < 1 || data->n_node > INT32_MAX / 4 || data->n_cell > INT32_MAX / 8)
-        return error_set(err, ERR_MESH,
-                         "%s: %lld cells and %lld nodes; a mesh needs at least one cell and at most 2^29 nodes",
-                         source, (long long)data->n_cell, (long long)data->n_node);
-    if (data->n_name > MESH_MAX_NAMES)
-        return error_set(err, ERR_MESH, "%s: %d boundary names, at most %d are possible", source, data->n_name,
-                         MESH_MAX_NAMES);
     m->n_node = data->n_node;
     m->n_cell = data->n_cell;
     ARENA_NEW(&m->memory, m->x, m->n_node * m->dim, err);
     memcpy(m->x, data->x, (size_t)(m->n_node * m->dim) * sizeof *m->x);
-    for (int i = 0; i < m->type->n_node; i++) {
-        order[i] = -1;
-        for (int k = 0; k < m->type->n_node; k++) {
-            double d = 0;
-
-            for (int a = 0; a < m->dim; a++)
-                d += fabs(data->reference[k * m->dim + a] - m->type->x[i][a]);
-            order[i] = d < 1e-6 ? k : order[i];
-        }
-        if (order[i] < 0)
-            return error_set(err, ERR_MESH, "%s: the reader's %s has no node at (%g, %g, %g)", source,
-                             m->type->name, m->type->x[i][0], m->type->x[i][1], m->type->x[i][2]);
-    }
+    TRY(match_nodes(data, m->type, source, order, err));
     ARENA_NEW(&m->memory, m->cell, m->n_cell * m->type->n_node, err);
     for (int64_t e = 0; e < m->n_cell; e++)
         for (int i = 0; i < m->type->n_node; i++) {
@@ -188,139 +249,7 @@ int mesh_create_from_data(const pf_mesh_data *data, const char *source, mesh *m,
     for (int i = 0; i < m->n_name; i++)
         if (!(m->name[i] = arena_strdup(&m->memory, data->name[i])))
             return error_memory(err, "mesh names", 0);
-    return find_boundary(m, data, source, err);
-}
-
-/* Nodes on a boundary, each once, ascending. */
-static int boundary_nodes(mesh *m, int name, int32_t **node, int64_t *n, error *err)
-{
-    int64_t k = 0;
-
-    for (int64_t f = 0; f < m->n_facet; f++)
-        k += m->facet[f].names >> name & 1 ? m->type->facet_nodes : 0;
-    ARENA_NEW(&m->memory, *node, k, err);
-    k = 0;
-    for (int64_t f = 0; f < m->n_facet; f++)
-        for (int i = 0; (m->facet[f].names >> name & 1) && i < m->type->facet_nodes; i++)
-            (*node)[k++] =
-                m->cell[(int64_t)m->facet[f].cell * m->type->n_node + m->type->facet[m->facet[f].local][i]];
-    qsort(*node, (size_t)k, sizeof **node, order_int32);
-    *n = 0;
-    for (int64_t i = 0; i < k; i++)
-        if (i == 0 || (*node)[i] != (*node)[i - 1])
-            (*node)[(*n)++] = (*node)[i];
-    return 0;
-}
-
-/* A node with its position along the boundary, for matching by sorting. */
-typedef struct placed {
-    int64_t key[3];
-    int32_t node;
-} placed;
-
-static int by_place(const void *a, const void *b)
-{
-    const placed *p = a, *q = b;
-
-    for (int k = 0; k < 3; k++)
-        if (p->key[k] != q->key[k])
-            return p->key[k] < q->key[k] ? -1 : 1;
-    return 0;
-}
-
-static int place_nodes(mesh *m, const int32_t *node, int64_t n, const double *centre, double size, placed *out)
-{
-    for (int64_t i = 0; i < n; i++) {
-        out[i].node = node[i];
-        memset(out[i].key, 0, sizeof out[i].key);
-        for (int k = 0; k < m->dim; k++)
-            out[i].key[k] = llround((m->x[(int64_t)node[i] * m->dim + k] - centre[k]) / (1e-6 * size));
-    }
-    qsort(out, (size_t)n, sizeof *out, by_place);
-    return 0;
-}
-
-static void bounds(const mesh *m, const int32_t *node, int64_t n, double *centre, double *size)
-{
-    *size = 0;
-    for (int k = 0; k < m->dim; k++) {
-        double low = INFINITY, high = -INFINITY;
-
-        for (int64_t i = 0; i < n; i++) {
-            low = fmin(low, m->x[(int64_t)node[i] * m->dim + k]);
-            high = fmax(high, m->x[(int64_t)node[i] * m->dim + k]);
-        }
-        centre[k] = 0.5 * (low + high);
-        *size = fmax(*size, high - low);
-    }
-}
-
-int mesh_make_periodic(mesh *m, int a, int b, error *err)
-{
-    int32_t *node[2];
-    int64_t n[2];
-    double centre[2][3], size[2];
-    placed *place[2];
-    int name[2] = {a, b};
-
-    if (!m->master) {
-        ARENA_NEW(&m->memory, m->master, m->n_node, err);
-        for (int64_t i = 0; i < m->n_node; i++)
-            m->master[i] = (int32_t)i;
-    }
-    for (int s = 0; s < 2; s++) {
-        TRY(boundary_nodes(m, name[s], &node[s], &n[s], err));
-        bounds(m, node[s], n[s], centre[s], &size[s]);
-        ARENA_NEW(&m->memory, place[s], n[s] > 0 ? n[s] : 1, err);
-        place_nodes(m, node[s], n[s], centre[s], size[s] > 0 ? size[s] : 1, place[s]);
-    }
-    for (int64_t i = 0; i < n[0] || i < n[1]; i++)
-        for (int k = 0; k < 3; k++)
-            if (n[0] != n[1] || llabs(place[0][i].key[k] - place[1][i].key[k]) > 1)
-                return error_set(
-                    err, ERR_MESH,
-                    "boundary { periodic = {\"%s\", \"%s\"} }: their nodes do not match (%lld and %lld "
-                    "nodes); both sides need the same facets, shifted",
-                    m->name[a], m->name[b], (long long)n[0], (long long)n[1]);
-    for (int64_t i = 0; i < n[0]; i++) {
-        int32_t p = place[0][i].node, q = place[1][i].node;
-
-        while (m->master[p] != p)
-            p = m->master[p];
-        while (m->master[q] != q)
-            q = m->master[q];
-        m->master[p > q ? p : q] = p > q ? q : p;
-    }
-    for (int k = 0; k < m->dim; k++) {
-        m->period_at[m->n_period][k] = centre[0][k];
-        m->period_vector[m->n_period][k] = centre[1][k] - centre[0][k];
-    }
-    m->period[m->n_period][0] = a;
-    m->period[m->n_period++][1] = b;
-    return 0;
-}
-
-/* Takes whole periods off x: along each as many as lie between `from` and x, rounded down after adding `half`. */
-static void take_periods(const mesh *m, double *x, const double (*from)[3], double half)
-{
-    for (int k = 0; k < m->n_period; k++) {
-        double along = 0, size = 0;
-
-        for (int i = 0; i < m->dim; i++) {
-            along += (x[i] - (from ? from[k][i] : 0)) * m->period_vector[k][i];
-            size += m->period_vector[k][i] * m->period_vector[k][i];
-        }
-        for (int i = 0; i < m->dim; i++)
-            x[i] -= floor(along / size + half) * m->period_vector[k][i];
-    }
-}
-
-void mesh_wrap(const mesh *m, double *x)
-{
-    take_periods(m, x, m->period_at, 0);
-}
-
-void mesh_nearest(const mesh *m, double *d)
-{
-    take_periods(m, d, NULL, 0.5);
+    status = find_boundary(m, data, source, &room, err);
+    arena_free(&room);
+    return status;
 }

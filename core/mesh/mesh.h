@@ -10,7 +10,7 @@
 
 #include <stdint.h>
 
-enum { MESH_MAX_NAMES = 64 };
+enum { MESH_MAX_NAMES = 64, MESH_MAX_IMAGES = 27 };
 
 typedef struct mesh_facet {
     int32_t cell;   /* the cell behind it                              */
@@ -62,10 +62,15 @@ int mesh_make_periodic(mesh *m, int a, int b, error *err);
  */
 void mesh_wrap(const mesh *m, double *x);
 void mesh_nearest(const mesh *m, double *d);
+/* Shifts of the images of a point: by -1, 0 or 1 of each of at most 3 periods, zero first.  Returns how many. */
+int mesh_images(const mesh *m, double shift[MESH_MAX_IMAGES][3]);
 
 /* Isoparametric mapping of a cell at a point with second-order basis n, dn: place x, Jacobian matrix
  * j[a][b] = dx_a / dxi_b (identity in unused directions); returns its determinant. */
 double mesh_map(const mesh *m, int64_t cell, const double *n, const double (*dn)[3], double x[3], double j[3][3]);
+
+/* The same at reference coordinates xi of the cell. */
+double mesh_place(const mesh *m, int64_t cell, const double *xi, double x[3], double j[3][3]);
 
 int mesh_find_name(const mesh *m, const char *name); /* index or -1 */
 void mesh_destroy(mesh *m);

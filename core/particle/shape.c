@@ -1,22 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Shapes: which points are inside, volume and second moments. */
+ * Shapes: which points are inside, and how far a body reaches. */
 #include "particle/particle.h"
 
-#include <math.h>
-#include <string.h>
+#include "base/text.h"
 
-/* Cells of the grid over the bounding box, a direction, for moments by quadrature. */
-enum { MOMENT_CELLS_2D = 1200, MOMENT_CELLS_3D = 160 };
+#include <math.h>
 
 static double general_level(const shape *s, const double *x)
 {
     double at[3] = {0}, d[VALUE_MAX] = {1};
-    error ignored;
 
+    if (s->fault->code)
+        return 1;
     for (int k = 0; k < s->dim; k++)
         at[k] = x[k] + s->centre[k];
-    return value_at(&s->distance, at, 0, d, &ignored) ? 1 : d[0];
+    if (value_at(&s->distance, at, 0, d, s->fault))
+        return 1;
+    if (!isfinite(d[0])) {
+        error_set(s->fault, ERR_CASE, "the distance function of a shape is not finite at %s of its own frame",
+                  text_point(at, s->dim).s);
+        return 1;
+    }
+    return d[0];
+}
+
+int shape_check(const shape *s, error *err)
+{
+    if (!s->fault || !s->fault->code)
+        return 0;
+    if (err)
+        *err = *s->fault;
+    return s->fault->code;
 }
 
 double shape_level(const shape *s, const double *x)
@@ -66,88 +81,38 @@ int shape_is_smooth(const shape *s)
     return s->kind == SHAPE_ELLIPSOID || s->kind == SHAPE_DISTANCE;
 }
 
-static int measure_formula(shape *s)
+/* Norm |(a, b)|_q; q = INFINITY: the larger. */
+static double norm(double a, double b, double q)
 {
-    const double *h = s->half;
-    double n = s->dim == 2 ? 4 : 5;
+    double most = fmax(fabs(a), fabs(b));
 
-    memset(s->moment, 0, sizeof s->moment);
-    switch (s->kind) {
-    case SHAPE_ELLIPSOID:
-        s->volume = s->dim == 2 ? M_PI * h[0] * h[1] : 4 * M_PI / 3 * h[0] * h[1] * h[2];
-        for (int k = 0; k < s->dim; k++)
-            s->moment[k][k] = s->volume * h[k] * h[k] / n;
-        return 1;
-    case SHAPE_BOX:
-        s->volume = s->dim == 2 ? 4 * h[0] * h[1] : 8 * h[0] * h[1] * h[2];
-        for (int k = 0; k < s->dim; k++)
-            s->moment[k][k] = s->volume * h[k] * h[k] / 3;
-        return 1;
-    case SHAPE_CYLINDER:
-        s->volume = 2 * M_PI * h[0] * h[0] * h[2];
-        s->moment[0][0] = s->moment[1][1] = s->volume * h[0] * h[0] / 4;
-        s->moment[2][2] = s->volume * h[2] * h[2] / 3;
-        return 1;
-    default:
-        return 0;
-    }
+    return isinf(q) || most == 0 ? most : most * pow(pow(fabs(a) / most, q) + pow(fabs(b) / most, q), 1 / q);
 }
 
-/* Moments of order 0, 1, 2 about the origin by midpoints of a fine grid over +-half. */
-static void measure_grid(const shape *s, double *volume, double *first, double second[3][3])
+/* A superellipsoid is the unit ball of |(|(x/a, y/b)|_e0, z/c)|_e1: its support is the dual norm, 1/q = 1 - 1/e. */
+static double superellipsoid_support(const shape *s, const double *n)
 {
-    int n = s->dim == 2 ? MOMENT_CELLS_2D : MOMENT_CELLS_3D, nz = s->dim == 2 ? 1 : n;
-    double d[3];
+    double q[2], v;
 
-    *volume = 0;
-    memset(first, 0, 3 * sizeof *first);
-    memset(second, 0, 9 * sizeof(double));
-    for (int k = 0; k < 3; k++)
-        d[k] = 2 * s->half[k] / n;
-    for (int c = 0; c < nz; c++)
-        for (int b = 0; b < n; b++)
-            for (int a = 0; a < n; a++) {
-                double x[3] = {-s->half[0] + (a + 0.5) * d[0], -s->half[1] + (b + 0.5) * d[1],
-                               s->dim == 3 ? -s->half[2] + (c + 0.5) * d[2] : 0};
-                double w = d[0] * d[1] * (s->dim == 3 ? d[2] : 1);
-
-                if (shape_level(s, x) >= 0)
-                    continue;
-                *volume += w;
-                for (int i = 0; i < s->dim; i++) {
-                    first[i] += w * x[i];
-                    for (int j = 0; j < s->dim; j++)
-                        second[i][j] += w * x[i] * x[j];
-                }
-            }
+    for (int i = 0; i < 2; i++)
+        q[i] = s->exponent[i] > 1 ? s->exponent[i] / (s->exponent[i] - 1) : INFINITY;
+    v = norm(s->half[0] * n[0], s->half[1] * n[1], q[0]);
+    return s->dim == 2 ? v : norm(v, s->half[2] * n[2], q[1]);
 }
 
-int shape_measure(shape *s, error *err)
+/* Of points of the surface. */
+static double sampled_support(const shape *s, const double *n)
 {
-    double first[3];
+    double most = -INFINITY;
 
-    s->radius = 0;
-    for (int k = 0; k < s->dim; k++)
-        s->radius += s->half[k] * s->half[k];
-    s->radius = s->kind == SHAPE_ELLIPSOID ? fmax(s->half[0], fmax(s->half[1], s->dim == 3 ? s->half[2] : 0))
-                                           : sqrt(s->radius);
-    if (s->kind == SHAPE_CYLINDER)
-        s->radius = hypot(s->half[0], s->half[2]);
-    s->thickness = 2 * fmin(s->half[0], s->dim == 3 ? fmin(s->half[1], s->half[2]) : s->half[1]);
-    if (measure_formula(s))
-        return 0;
-    memset(s->centre, 0, sizeof s->centre);
-    measure_grid(s, &s->volume, first, s->moment);
-    if (!(s->volume > 0))
-        return error_set(err, ERR_CASE, "the distance function is nowhere negative inside the box of its shape");
-    for (int k = 0; k < s->dim; k++)
-        s->centre[k] = s->kind == SHAPE_DISTANCE ? first[k] / s->volume : 0;
-    for (int i = 0; i < s->dim; i++) {
-        s->radius += fabs(s->centre[i]);
-        for (int j = 0; j < s->dim; j++)
-            s->moment[i][j] -= s->volume * s->centre[i] * s->centre[j];
+    for (int64_t i = 0; i < s->n_support; i++) {
+        double v = 0;
+
+        for (int k = 0; k < s->dim; k++)
+            v += s->support[i][k] * n[k];
+        most = fmax(most, v);
     }
-    return 0;
+    return most;
 }
 
 double shape_support(const shape *s, const double *n)
@@ -165,7 +130,9 @@ double shape_support(const shape *s, const double *n)
         return v;
     case SHAPE_CYLINDER:
         return s->half[0] * hypot(n[0], n[1]) + s->half[2] * fabs(n[2]);
+    case SHAPE_SUPERELLIPSOID:
+        return superellipsoid_support(s, n);
     default:
-        return s->radius;
+        return sampled_support(s, n);
     }
 }

@@ -101,13 +101,16 @@ int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *e
     memset(p, 0, sizeof *p);
     p->n_thread = n_thread;
     TRY(describe(d, c, r, err));
+    p->warnings = d->warnings;
+    d->warnings = (warning_list){0};
     TRY(problem_make_mesh(d, r, &p->mesh, err));
     p->mesh_seconds = clock_seconds() - start;
     TRY(describe_check(d, &p->mesh, err));
     TRY(make_periodic(p, err));
+    TRY(cell_grid_create(&p->grid, &p->mesh, err));
     TRY(space_number(&p->space, &d->fields, &p->mesh, d->n_body, err));
     TRY(conditions_create(&p->conditions, d, &p->space, &p->warnings, err));
-    TRY(bodies_create(&p->bodies, d, &p->space, &p->conditions, &p->warnings, err));
+    TRY(bodies_create(&p->bodies, d, &p->space, &p->grid, &p->conditions, &p->warnings, err));
     TRY(space_constrain(&p->space, err));
     TRY(make_system(p, r, err));
     plan_continuation(p);
@@ -161,6 +164,7 @@ void problem_destroy(problem *p)
     bodies_destroy(&p->bodies);
     conditions_destroy(&p->conditions);
     space_destroy(&p->space);
+    cell_grid_destroy(&p->grid);
     mesh_destroy(&p->mesh);
     describe_destroy(&p->description);
     warning_free(&p->warnings);

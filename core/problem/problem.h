@@ -7,6 +7,7 @@
 
 #include "body/body.h"
 #include "describe/describe.h"
+#include "mesh/cell_grid.h"
 #include "solve/solve.h"
 #include "solve/stepper.h"
 #include "state/state.h"
@@ -14,6 +15,7 @@
 typedef struct problem {
     description description;
     mesh mesh;
+    cell_grid grid;
     space space;
     conditions conditions;
     bodies bodies;

@@ -38,8 +38,8 @@ static void find_places(run *r)
             *at = (body_place){.body = k, .solid = solid_at(&b->spec[k].shape, &r->p->state.pose[k])};
             for (int i = 0; i < 3; i++)
                 at->solid.at.x[i] += b->image[j][i];
-            r->n_place += j == 0 || cell_grid_ball((cell_grid *)&b->grid, at->solid.at.x, at->solid.shape->radius,
-                                                   b->near_cell) > 0;
+            r->n_place +=
+                j == 0 || cell_grid_ball(b->grid, at->solid.at.x, at->solid.shape->radius, b->near_cell) > 0;
         }
 }
 
@@ -82,7 +82,7 @@ static void enter(run *r, const body_place *p, double *shown)
     const mesh *m = &r->p->mesh;
     const bodies *b = &r->p->bodies;
     int rigid = bodies_rigid_field(b);
-    int64_t n = cell_grid_ball((cell_grid *)&b->grid, p->solid.at.x, p->solid.shape->radius, b->near_cell);
+    int64_t n = cell_grid_ball(b->grid, p->solid.at.x, p->solid.shape->radius, b->near_cell);
 
     for (int64_t c = 0; c < n; c++)
         for (int i = 0; i < m->type->n_node; i++) {

@@ -28,7 +28,7 @@ int lines_locate(run *r, error *err)
             double x[3];
 
             point_of(q, k, x);
-            r->line_at[i][k] = locate_point(&r->p->mesh, x);
+            r->line_at[i][k] = locate_point(&r->p->mesh, &r->p->grid, x);
         }
     }
     return 0;

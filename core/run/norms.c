@@ -5,6 +5,8 @@
  * zero mean on both sides. */
 #include "run/run.h"
 
+#include "space/evaluate.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,37 +37,13 @@ typedef struct point_data {
 /* A point of cell e: where it is, and u_h and its gradient there. */
 static void at_point(const run *r, int f, int64_t e, const double *xi, double weight, point_data *d)
 {
-    const problem *p = r->p;
-    const mesh *m = &p->mesh;
-    const fe_cell *c = m->type;
-    const field_spec *g = &p->space.field[f];
-    double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], j[3][3], inv[3][3], det;
-    int dim = m->dim, n_basis = fe_n_basis(c, g->order);
+    double det;
 
-    fe_basis(c, 2, xi, n, dn);
     memset(d, 0, sizeof *d);
-    det = mesh_map(m, e, n, (const double(*)[3])dn, d->x, j);
-    for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++) {
-            int k = (b + 1) % 3, s = (b + 2) % 3, u = (a + 1) % 3, v = (a + 2) % 3;
-
-            inv[a][b] = j[k][u] * j[s][v] - j[k][v] * j[s][u];
-        }
+    space_evaluate(&r->p->space, f, r->x, e, xi,
+                   &(point_values){.value = d->value, .gradient = d->gradient, .place = d->x, .det = &det});
     d->w = weight * det;
-    d->h = m->h[e];
-    fe_basis(c, g->order, xi, n, dn);
-    for (int i = 0; i < n_basis; i++) {
-        int64_t node = g->order == 0 ? m->n_node : m->cell[e * c->n_node + (g->order == 2 ? i : c->vertex[i])];
-
-        for (int k = 0; k < g->n_comp; k++) {
-            double u = r->x[p->space.first[f][node] + k];
-
-            d->value[k] += n[i] * u;
-            for (int a = 0; a < dim; a++)
-                for (int b = 0; b < dim; b++)
-                    d->gradient[k * dim + a] += u * dn[i][b] * inv[b][a] / det;
-        }
-    }
+    d->h = r->p->mesh.h[e];
 }
 
 /* Points and weights on the reference cell. */
@@ -166,6 +144,7 @@ int norms_of_error(const run *r, int f, double t, double *l2, double *h1, double
     free(fine.x);
     free(fine.w);
     TRY(status);
+    TRY(bodies_check(&p->bodies, err));
     if (p->system.gauge.free[f]) {
         s.sum -= s.mean * s.mean / s.volume;
         s.size -= s.mean_exact * s.mean_exact / s.volume;
@@ -188,11 +167,10 @@ static void add_bodies(const run *r, double *sum, double *volume)
         int body = b->space->attached_particle[a];
 
         for (int q = 0; q < b->cut.n; q++) {
-            double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], x[3], j[3][3], v[3], w;
+            double x[3], j[3][3], v[3];
+            double w = now->covered_weight[k * b->cut.n + q] *
+                       mesh_place(m, b->space->attached_cell[a], b->cut.x[q], x, j);
 
-            fe_basis(m->type, 2, b->cut.x[q], n, dn);
-            w = now->covered_weight[k * b->cut.n + q] *
-                mesh_map(m, b->space->attached_cell[a], n, (const double(*)[3])dn, x, j);
             for (int i = 0; i < m->dim; i++)
                 x[i] -= b->envelope.shift[a][i];
             bodies_velocity(b, &now->body[body].at, r->x, body, x, v);

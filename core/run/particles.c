@@ -184,6 +184,7 @@ int particles_outline(run *r, error *err)
     status = vtp_write(path, p->mesh.dim, body, r->n_place, err);
     free(body);
     TRY(status);
+    TRY(bodies_check(&p->bodies, err)); /* the outline met the levels */
     more = realloc(r->body_file, (size_t)(r->n_body_file + 1) * sizeof *more);
     if (!more || !(more[r->n_body_file] = strdup(name)))
         return error_memory(err, path, 0);

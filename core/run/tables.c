@@ -156,7 +156,7 @@ int tables_locate(run *r, error *err)
 
     ARENA_NEW(&r->memory, r->probe_at, o->n_probe + 1, err);
     for (int i = 0; i < o->n_probe; i++) {
-        r->probe_at[i] = locate_point(&p->mesh, o->probe[i].x);
+        r->probe_at[i] = locate_point(&p->mesh, &p->grid, o->probe[i].x);
         if (r->probe_at[i].cell < 0)
             return error_set(err, ERR_CASE, "%s:%d: output: probe \"%s\" at %s lies outside the mesh",
                              o->block->file, o->block->line, o->probe[i].name,

@@ -112,6 +112,7 @@ static int step(stepper *p, const state *from, state *to, int order, double dt, 
                 bodies_paths(p->bodies, p->bodies->now, order, b.c, (const double *[]){from->x, from->before},
                              (const pose *[]){from->pose, from->pose_before}, p->history);
         TRY(newton_solve(p->system, &time, &p->options, to->x, &p->report, err));
+        TRY(bodies_check(p->bodies, err)); /* paths asked for their levels */
         p->now->newton_iterations += p->report.iterations;
         if (!p->report.converged)
             return 0;

@@ -117,6 +117,23 @@ static void a_function_that_returns_nonsense_is_named_with_place_and_time(void *
                 "attempt to index");
 }
 
+static void an_error_in_a_distance_function_is_named_with_its_line_and_place(void **state)
+{
+    (void)state;
+    assert_case(
+        3,
+        MESH FLUID TERMS WALLS
+        "particulate \"sharp\"\nparticle { density = 1, at = {0.5, 0.5}, shape = body { half = {0.2, 0.2},\n"
+        "  distance = function(x, y) return x.y end } }\n",
+        "bad.lua:7: function \"distance\" at (", "attempt to index");
+    assert_case(
+        3,
+        MESH FLUID TERMS WALLS
+        "particulate \"sharp\"\nparticle { density = 1, at = {0.5, 0.5}, shape = body { half = {0.2, 0.2},\n"
+        "  distance = function(x, y) return 1 end } }\n",
+        "bad.lua:7: shape: the distance function is nowhere negative");
+}
+
 static void a_missing_parameter_or_block_is_named(void **state)
 {
     (void)state;
@@ -182,6 +199,7 @@ int main(void)
         cmocka_unit_test(an_endless_loop_in_the_case_ends),
         cmocka_unit_test(the_sandbox_has_no_doors),
         cmocka_unit_test(a_function_that_returns_nonsense_is_named_with_place_and_time),
+        cmocka_unit_test(an_error_in_a_distance_function_is_named_with_its_line_and_place),
         cmocka_unit_test(a_missing_parameter_or_block_is_named),
         cmocka_unit_test(a_mesh_that_cannot_fit_is_refused_before_it_is_made),
         cmocka_unit_test(symmetry_on_an_oblique_boundary_is_refused),

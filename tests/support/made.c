@@ -42,6 +42,7 @@ void made_destroy(made *k)
     free(k->x);
     space_destroy(&k->s);
     mesh_destroy(&k->m);
+    arena_free(&k->memory);
 }
 
 void made_add(made *k, int kind, double a, double b, double c, const double *at, int moves)
@@ -52,7 +53,7 @@ void made_add(made *k, int kind, double a, double b, double c, const double *at,
 
     *s = (shape){.kind = kind, .dim = k->m.dim, .half = {a, b, c}};
     memcpy(place.x, at, (size_t)k->m.dim * sizeof *at);
-    assert_int_equal(shape_measure(s, &err), 0);
+    assert_int_equal(shape_measure(s, &k->memory, &err), 0);
     k->bodies[k->n] = (vtp_body){.id = k->n, .moves = moves, .at = solid_at(s, &place), .velocity = {1, 2, 0}};
     k->n++;
 }

@@ -17,6 +17,7 @@ typedef struct made {
     shape shapes[4];
     vtp_body bodies[4];
     int n;
+    arena memory;
 } made;
 
 /* The linear field that fluid has everywhere. */

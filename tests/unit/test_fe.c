@@ -159,6 +159,72 @@ static void facet_nodes_lie_on_the_facet(void **state)
     }
 }
 
+/* Degree 2 n - 1, against int_-1^1 x^k; points ascend within the interval. */
+static void gauss_rules_are_exact_for_twice_their_number(void **state)
+{
+    error err;
+
+    (void)state;
+    for (int n = 1; n <= FE_MAX_GAUSS; n++) {
+        double x[FE_MAX_GAUSS], w[FE_MAX_GAUSS];
+
+        assert_int_equal(fe_gauss(n, x, w, &err), 0);
+        for (int k = 0; k < 2 * n; k++) {
+            double sum = 0;
+
+            for (int i = 0; i < n; i++)
+                sum += w[i] * pow(x[i], k);
+            assert_true(fabs(sum - (k % 2 ? 0 : 2.0 / (k + 1))) < 1e-14);
+        }
+        for (int i = 0; i < n; i++)
+            assert_true(x[i] > (i ? x[i - 1] : -1) && x[i] < 1 && w[i] > 0);
+    }
+    assert_int_equal(fe_gauss(0, (double[1]){0}, (double[1]){0}, &err), ERR_USAGE);
+    assert_int_equal(fe_gauss(FE_MAX_GAUSS + 1, (double[1]){0}, (double[1]){0}, &err), ERR_USAGE);
+}
+
+/* A random function of second order stays between its Bernstein coefficients, and reaches beyond its nodal values.
+ */
+static void bernstein_coefficients_bound_a_function(void **state)
+{
+    unsigned seed = 1;
+    int beyond = 0;
+
+    (void)state;
+    for (int t = 0; t < 4; t++)
+        for (int round = 0; round < 20; round++) {
+            const fe_cell *c = fe_cell_of(types[t]);
+            double v[FE_MAX_NODES], b[FE_MAX_NODES], low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
+
+            for (int i = 0; i < c->n_node; i++) {
+                seed = seed * 1664525u + 1013904223u;
+                b[i] = v[i] = seed / 4294967296.0;
+            }
+            fe_bernstein(c, b);
+            for (int i = 0; i < c->n_node; i++) {
+                low[0] = fmin(low[0], v[i]), high[0] = fmax(high[0], v[i]);
+                low[1] = fmin(low[1], b[i]), high[1] = fmax(high[1], b[i]);
+            }
+            for (int q = 0; q < 11 * 11 * 11; q++) {
+                double at[3] = {q % 11 / 10.0, q / 11 % 11 / 10.0, q / 121 / 10.0}, n[FE_MAX_NODES], u = 0;
+                double dn[FE_MAX_NODES][3];
+
+                if (c->simplex) { /* collapsed */
+                    at[1] *= 1 - at[2];
+                    at[0] *= 1 - at[1] - at[2];
+                }
+                for (int k = 0; k < 3; k++)
+                    at[k] = k >= c->dim ? 0 : c->simplex ? at[k] : 2 * at[k] - 1;
+                fe_basis(c, 2, at, n, dn);
+                for (int i = 0; i < c->n_node; i++)
+                    u += n[i] * v[i];
+                assert_true(u > low[1] - 1e-12 && u < high[1] + 1e-12);
+                beyond += u < low[0] - 1e-12 || u > high[0] + 1e-12;
+            }
+        }
+    assert_true(beyond > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -167,6 +233,8 @@ int main(void)
         cmocka_unit_test(quadrature_is_exact_for_its_degree),
         cmocka_unit_test(facet_rules_close_the_cell),
         cmocka_unit_test(facet_nodes_lie_on_the_facet),
+        cmocka_unit_test(gauss_rules_are_exact_for_twice_their_number),
+        cmocka_unit_test(bernstein_coefficients_bound_a_function),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -174,7 +174,7 @@ static void what_a_body_carries_is_steady_along_its_path(void **state)
                 int moves;
 
                 x[side / 2] += (side % 2 ? 1 : -1) * (q->shape->half[side / 2] * (1 + 1e-9));
-                cell_grid_ball(&p->bodies.grid, x, 0, p->bodies.near_cell);
+                cell_grid_ball(p->bodies.grid, x, 0, p->bodies.near_cell);
                 cell = p->bodies.near_cell[0];
                 moves = m.frame->at(m.frame->ctx, cell, x, w, h);
                 assert_true(moves == (body == 0) || (body == 1 && fabs(w[0]) < 1e-6));
