@@ -109,6 +109,7 @@ int bodies_create(bodies *b, const description *d, space *s, const cell_grid *gr
     ARENA_NEW(&b->memory, b->envelope.first_tie, s->mesh->n_cell, err);
     TRY(active_create(b, err));
     TRY(paths_create(b, err));
+    TRY(pairs_create(b, err));
     bodies_hold(b);
     TRY(bodies_place(b, start, &ignored, err));
     warn_resolution(b);
@@ -126,6 +127,8 @@ void bodies_destroy(bodies *b)
 {
     placements_destroy(b);
     free(b->envelope.next_tie);
+    if (b->has_walls)
+        wall_destroy(&b->walls);
     arena_free(&b->envelope.memory);
     cut_rule_destroy(&b->cut);
     arena_free(&b->memory);

@@ -15,6 +15,8 @@
 #include "assemble/assemble.h"
 #include "base/warning.h"
 #include "describe/describe.h"
+#include "mesh/cell_grid.h"
+#include "mesh/wall.h"
 #include "space/conditions.h"
 #include "space/locate.h"
 #include "space/space.h"
@@ -67,7 +69,7 @@ typedef struct placement {
     surface_list surface;
     tie_list tie;
     int64_t n_pair;
-    near_pair *pair;
+    near_pair *pair;    /* bodies near each other or a wall */
     uint8_t *idle;      /* [n_dof] 1: off, see body_points */
     body_points points; /* all of it as the assembly reads it */
     arena memory;
@@ -121,8 +123,9 @@ typedef struct bodies {
     int n_image;            /* images of a body by the periods of the mesh: 1, 3, 9, 27 */
     double image[27][3];    /* their shifts; the first is zero */
     double h_mean;          /* of the cells */
-    double pair_range;      /* gap up to which pairs are looked for */
-    unsigned walls;         /* bit k: side k of the box is a wall   */
+    double pair_range;      /* gap up to which some term acts on pairs */
+    int has_walls;
+    wall walls; /* boundaries where a vector field of the mesh is prescribed */
     envelope envelope;
     body_paths paths;
     placement *now;     /* the last one made */
@@ -181,6 +184,15 @@ const fe_rule *bodies_points(const bodies *b, const placement *p, int field, int
 /* Body (with its image's shift, unless NULL) that holds the point x of a cell, or -1. */
 int bodies_at(const bodies *b, const placement *p, int64_t cell, const double *x, double *shift);
 
+/* --- how far a step may go (step_limit.c) --- */
+
+enum { BODIES_MOST_CELLS = 3 }; /* that a step may carry a body: what the paths of history allow */
+enum too_far { FAR_NOT, FAR_CELLS, FAR_WALL, FAR_BODY };
+
+/* Whether a step from one set of poses to another carries a body by more than BODIES_MOST_CELLS cells, or by more
+ * than the gap to the wall or body that it moves towards; then why says which and by how much. */
+enum too_far bodies_too_far(const bodies *b, const pose *from, const pose *to, char *why, size_t n);
+
 /* --- paths (paths.c) --- */
 
 /* Paths that history comes along near bodies, history = sum over levels of c[l] u[l]; level l when the bodies were
@@ -206,6 +218,20 @@ void surface_end(surface_list *s);
 int ties_make(bodies *b, placement *p, int *fresh, error *err);
 int active_create(bodies *b, error *err);
 void active_set(const bodies *b, placement *p);
+enum { PAIRS_MOST_WALLS = 8 }; /* that a body can be near to at one place */
+
+/* A wall near a body. */
+typedef struct wall_gap {
+    double gap, normal[3]; /* normal: into the domain */
+    int64_t cell;          /* before the wall */
+    int boundary;          /* its name in the mesh, or -1 */
+} wall_gap;
+
+int pairs_create(bodies *b, error *err);
+/* Walls with a gap to the body below range; list has room for PAIRS_MOST_WALLS. */
+int pairs_walls(const bodies *b, const solid *q, double range, wall_gap *list, int *n, error *err);
+/* Distance from y to the nearest image of x, and the unit vector n along it. */
+double pairs_separation(const bodies *b, const double *x, const double *y, double *n);
 int pairs_link(bodies *b, const pose *at, double drift, error *err);
 int pairs_find(const bodies *b, placement *p, error *err);
 int paths_create(bodies *b, error *err);

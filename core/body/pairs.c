@@ -1,28 +1,69 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Bodies near each other and near the walls of a box.  The gap along the line of centres is the distance less both
- * bodies' extents in that direction: exact for disks and spheres, and for any body against a wall. */
+ * Bodies near each other and near walls.  The gap along the line of centres, or from the centre to the nearest
+ * place of a wall, is the distance less the bodies' extents in that direction: exact for disks and spheres, and for
+ * any body against a plane wall. */
 #include "body/body.h"
 
-#include <math.h>
+#include "base/list.h"
 
-/* Which sides of a box mesh are walls: some vector field is prescribed there. */
-static unsigned walls_of(const bodies *b)
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Boundaries where a vector field is prescribed are walls. */
+static int find_walls(bodies *b, error *err)
 {
     const description *d = b->description;
     const mesh *m = b->space->mesh;
-    unsigned walls = 0;
+    uint8_t *on = calloc((size_t)m->n_facet + 1, 1);
+    int status;
 
-    for (int64_t f = 0; !d->mesh.path && !d->mesh.has_map && f < m->n_facet; f++)
+    if (!on)
+        return error_memory(err, "walls", (double)m->n_facet);
+    for (int64_t f = 0; f < m->n_facet; f++) {
         for (int i = 0; i < d->n_line; i++)
             for (int k = 0; b->conditions->facet[i][f] && k < b->space->n_field; k++)
-                if (d->line[i].has_value[k] && b->space->field[k].shape == PF_VECTOR)
-                    walls |= (unsigned)m->facet[f].names;
-    return walls;
+                on[f] |= d->line[i].has_value[k] && b->space->field[k].shape == PF_VECTOR;
+        b->has_walls |= on[f];
+    }
+    status = b->has_walls ? wall_create(&b->walls, m, on, err) : 0;
+    free(on);
+    return status;
+}
+
+int pairs_create(bodies *b, error *err)
+{
+    const description *d = b->description;
+    double size = 0, h = 0;
+
+    for (int k = 0; k < b->n; k++)
+        size = fmax(size, 2 * b->spec[k].shape.radius);
+    for (int64_t e = 0; e < b->space->mesh->n_cell; e++)
+        h = fmax(h, b->space->mesh->h[e]);
+    for (int i = 0; i < d->n_use; i++) {
+        const pf_term *t = d->use[i].term;
+
+        if (d->use[i].where == PF_PAIR)
+            b->pair_range = fmax(b->pair_range, t->reach ? t->reach(d->use[i].params, size, h) : size);
+    }
+    return find_walls(b, err);
+}
+
+/* Size of the cell at a place, or of the fallback where there is none. */
+static double size_at(const bodies *b, const double *x, int64_t fallback)
+{
+    const mesh *m = b->space->mesh;
+    double at[3] = {x[0], x[1], x[2]};
+    located l;
+
+    mesh_wrap(m, at);
+    l = locate_point(m, b->grid, at);
+    return l.cell >= 0 ? m->h[l.cell] : fallback >= 0 ? m->h[fallback] : b->h_mean;
 }
 
 /* Distance from y to the nearest image of x, and the unit vector along it. */
-static double separation(const bodies *b, const double *x, const double *y, double *n)
+double pairs_separation(const bodies *b, const double *x, const double *y, double *n)
 {
     double least = INFINITY;
     int dim = b->space->mesh->dim;
@@ -44,30 +85,31 @@ static double separation(const bodies *b, const double *x, const double *y, doub
 
 int pairs_link(bodies *b, const pose *at, double drift, error *err)
 {
-    for (int k = 0; k < b->n && b->pair_range == 0; k++)
-        b->pair_range = fmax(b->pair_range, 2 * b->spec[k].shape.radius);
-    b->walls = walls_of(b);
     for (int i = 0; b->has_pairs && i < b->n; i++)
         TRY(space_add_link(b->space, i, -1, err));
     for (int i = 0; b->has_pairs && i < b->n; i++)
         for (int j = 0; j < i; j++) {
             double ignored[3];
 
-            if (separation(b, at[i].x, at[j].x, ignored) - b->spec[i].shape.radius - b->spec[j].shape.radius <=
+            if (pairs_separation(b, at[i].x, at[j].x, ignored) - b->spec[i].shape.radius -
+                    b->spec[j].shape.radius <=
                 b->pair_range + drift)
                 TRY(space_add_link(b->space, i, j, err));
         }
     return 0;
 }
 
-/* The pair of bodies i and j (-1: a wall) of a link, at this gap and normal. */
-static void add_pair(const bodies *b, placement *p, int64_t link, int i, int j, double gap, const double *normal)
+/* The pair of bodies i and j (-1: a wall, before this cell) of a link, at this gap and normal. */
+static int add_pair(const bodies *b, placement *p, int64_t link, int i, int j, int64_t cell, double gap,
+                    const double *normal, int64_t *room, error *err)
 {
-    near_pair *n = &p->pair[p->n_pair++];
     const solid *q = &p->body[i];
+    near_pair *n;
     double back[3], reach;
 
-    *n = (near_pair){.group = space_link_group(b->space, link), .particle = i, .gap = gap, .h = b->h_mean};
+    LIST_ROOM(p->pair, p->n_pair, room, err);
+    n = &p->pair[p->n_pair++];
+    *n = (near_pair){.group = space_link_group(b->space, link), .particle = i, .gap = gap};
     n->size[0] = 2 * q->shape->radius;
     n->density[0] = b->spec[i].density;
     n->size[1] = j >= 0 ? 2 * b->spec[j].shape.radius : INFINITY;
@@ -79,42 +121,54 @@ static void add_pair(const bodies *b, placement *p, int64_t link, int i, int j, 
         n->normal[k] = normal[k];
         n->at[k] = q->at.x[k] - reach * normal[k];
     }
+    n->h = size_at(b, n->at, cell);
+    return 0;
 }
 
-static void near_walls(const bodies *b, placement *p, int k)
+int pairs_walls(const bodies *b, const solid *q, double range, wall_gap *list, int *n, error *err)
 {
-    const mesh_box *box = &b->description->mesh.box;
-    const solid *q = &p->body[k];
+    wall_point near[PAIRS_MOST_WALLS];
+    int found = 0;
 
-    for (int side = 0; side < 2 * b->space->mesh->dim; side++) {
-        int axis = side / 2;
-        double n[3] = {0}, gap;
+    *n = 0;
+    if (!b->has_walls)
+        return 0;
+    TRY(wall_near(&b->walls, q->at.x, q->shape->radius + range, PAIRS_MOST_WALLS, near, &found, err));
+    for (int i = 0; i < found; i++) {
+        wall_gap *w = &list[*n];
+        double back[3] = {-near[i].normal[0], -near[i].normal[1], -near[i].normal[2]};
 
-        if (!(b->walls >> side & 1))
-            continue;
-        n[axis] = side % 2 ? -1 : 1;
-        gap = (side % 2 ? box->high[axis] - q->at.x[axis] : q->at.x[axis] - box->low[axis]) - solid_support(q, n);
-        if (gap < b->pair_range)
-            add_pair(b, p, k, k, -1, gap, n);
+        w->gap = near[i].distance - solid_support(q, back);
+        memcpy(w->normal, near[i].normal, sizeof w->normal);
+        w->cell = b->space->mesh->facet[near[i].facet].cell;
+        w->boundary = near[i].boundary;
+        *n += w->gap < range;
     }
+    return 0;
 }
 
 int pairs_find(const bodies *b, placement *p, error *err)
 {
     const space *s = b->space;
+    int64_t room = 0;
 
-    ARENA_NEW(&p->memory, p->pair, s->n_link + 2 * s->mesh->dim * b->n, err);
-    for (int k = 0; s->n_link && k < b->n; k++)
-        near_walls(b, p, k);
+    for (int k = 0; s->n_link && k < b->n; k++) {
+        wall_gap wall[PAIRS_MOST_WALLS];
+        int n;
+
+        TRY(pairs_walls(b, &p->body[k], b->pair_range, wall, &n, err));
+        for (int i = 0; i < n; i++)
+            TRY(add_pair(b, p, k, k, -1, wall[i].cell, wall[i].gap, wall[i].normal, &room, err));
+    }
     for (int64_t l = b->n; l < s->n_link; l++) {
         int i = s->link[l][0], j = s->link[l][1];
-        double n[3] = {0}, back[3], gap = separation(b, p->body[i].at.x, p->body[j].at.x, n);
+        double n[3] = {0}, back[3], gap = pairs_separation(b, p->body[i].at.x, p->body[j].at.x, n);
 
         for (int k = 0; k < 3; k++)
             back[k] = -n[k];
         gap -= solid_support(&p->body[i], back) + solid_support(&p->body[j], n);
         if (gap < b->pair_range)
-            add_pair(b, p, l, i, j, gap, n);
+            TRY(add_pair(b, p, l, i, j, -1, gap, n, &room, err));
     }
     return 0;
 }

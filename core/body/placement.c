@@ -20,6 +20,7 @@ static void placement_destroy(placement *p)
     free(p->tie.group);
     free(p->tie.weight);
     free(p->tie.ref);
+    free(p->pair);
     arena_free(&p->memory);
     free(p);
 }

@@ -32,7 +32,7 @@ static const char options_text[] =
     "  --plugin FILE.so     load this plugin, too (may be repeated; PLUGFLOW_PLUGIN_PATH adds folders)\n"
     "  --memory GB          stop if the factors need more (default: what is free)\n"
     "  --json               machine-readable summary on stdout (run, check)\n"
-    "  --quiet              no talk on stderr\n"
+    "  --quiet              only warnings and errors on stderr\n"
     "  picture: --field NAME --component x|y|z|magnitude --range LOW,HIGH --slice z=0.5 --width PIXELS --arrows\n"
     "exit codes: 0 ok, 2 usage, 3 case, 4 mesh, 5 plugin, 6 did not converge, 7 input/output, 8 memory, 128+n "
     "signal\n";

@@ -96,7 +96,7 @@ int cli_run(const cli *o, error *err)
 {
     cli_case *k = malloc(sizeof *k);
     teller t = {.start = clock_seconds()};
-    run_talk talk = {.say = o->quiet ? NULL : say, .progress = o->quiet ? NULL : progress, .ctx = &t};
+    run_talk talk = {.say = o->quiet ? NULL : say, .warn = say, .progress = o->quiet ? NULL : progress, .ctx = &t};
     const char *term = getenv("TERM");
     run_result result = {0};
     char dir[4096];

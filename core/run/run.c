@@ -135,7 +135,11 @@ static int tell_warnings(run *r, error *err)
         text s = {0};
         int status;
 
-        say(r, "  warning: %s", w->text[r->told]);
+        text_add(&s, "  warning: ");
+        text_add(&s, w->text[r->told]);
+        if (r->talk && r->talk->warn && !s.failed)
+            r->talk->warn(r->talk->ctx, s.s);
+        text_free(&s);
         text_add(&s, "\"text\": ");
         text_json(&s, w->text[r->told]);
         status = s.failed ? error_memory(err, "log", 0) : output_event(r, "warning", s.s, err);

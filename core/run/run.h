@@ -20,6 +20,7 @@ typedef struct run_progress {
 
 typedef struct run_talk {
     void (*say)(void *ctx, const char *line);
+    void (*warn)(void *ctx, const char *line); /* of what is doubtful */
     void (*progress)(void *ctx, const run_progress *p);
     void *ctx;
 } run_talk;

@@ -42,6 +42,8 @@ static void add_counts(const problem *p, const run_result *q, text *t)
         number(t, "particles", p->bodies.n);
     number(t, "steps", (double)q->steps);
     number(t, "steps_halved", q->halved);
+    if (p->bodies.n)
+        number(t, "steps_shortened", (double)p->state.shortened);
     if (p->bodies.has_ties)
         number(t, "cuts_with_rootless_cells", (double)p->bodies.rootless);
     number(t, "newton_iterations", q->newton_iterations);

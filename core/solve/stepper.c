@@ -9,6 +9,7 @@
  * 2 (two half steps) - (one step): of second order in velocity, pressure and reactions. */
 #include "solve/stepper.h"
 
+#include <stdio.h>
 #include <string.h>
 
 enum { HALVINGS = 6 };
@@ -88,6 +89,25 @@ int stepper_steady(stepper *p, error *err)
     return react(p, (newton_time){.bodies = points(p->bodies)}, p->now->x, err);
 }
 
+/* Whether a step that carries bodies so far must be a shorter one; says so, of each kind once. */
+static int goes_too_far(stepper *p, const state *from, const state *to, double dt)
+{
+    char why[300];
+    enum too_far far = p->bodies->n ? bodies_too_far(p->bodies, from->pose, to->pose, why, sizeof why) : FAR_NOT;
+
+    if (!far)
+        return 0;
+    if (!p->said[far])
+        warning_add(p->bodies->warnings,
+                    "t = %.6g: a step of %.3g is too long and is shortened, as others may be: %s", from->t, dt,
+                    why);
+    p->said[far] = 1;
+    p->too_far = far;
+    snprintf(p->report.why, sizeof p->report.why, "%s%s", why,
+             far == FAR_CELLS ? "" : "; term \"contact.repulsion\" {} would keep them apart");
+    return 1;
+}
+
 /* One BDF step of order 1 or 2 from a state to another. */
 static int step(stepper *p, const state *from, state *to, int order, double dt, int *converged, error *err)
 {
@@ -95,6 +115,7 @@ static int step(stepper *p, const state *from, state *to, int order, double dt, 
     newton_time time = {.t = from->t + dt, .dt = dt, .shift = b.shift, .history = p->history, .old = from->x};
 
     *converged = 0;
+    p->too_far = FAR_NOT;
     state_copy(to, from);
     for (int64_t i = 0; i < from->n_dof; i++) {
         p->history[i] = b.c[0] * from->x[i] + b.c[1] * from->before[i];
@@ -104,6 +125,8 @@ static int step(stepper *p, const state *from, state *to, int order, double dt, 
     TRY(stepper_prescribe(p->conditions, p->bodies, time.t, to->x, err));
     for (int k = 0; k <= p->geometry_iterations; k++) { /* from the second on with the motion just found */
         bodies_move(p->bodies, from->pose, dt, from->x, to->x, to->pose);
+        if (goes_too_far(p, from, to, dt))
+            return 0;
         if (place(p, to->pose, to->x, err))
             return error_prefix(err, "t = %.6g: ", time.t);
         time.bodies = points(p->bodies);
@@ -117,8 +140,10 @@ static int step(stepper *p, const state *from, state *to, int order, double dt, 
         if (!p->report.converged)
             return 0;
     }
-    *converged = 1;
     bodies_move(p->bodies, from->pose, dt, from->x, to->x, to->pose);
+    if (goes_too_far(p, from, to, dt))
+        return 0;
+    *converged = 1;
     if (p->bodies->n)
         TRY(bodies_fill(p->bodies, p->bodies->now, to->x, err));
     TRY(react(p, time, to->x, err));
@@ -159,11 +184,12 @@ static int start(stepper *p, double dt, int *converged, error *err)
 /* The state reached becomes that of now; counts go on. */
 static void accept(stepper *p)
 {
-    int64_t iterations = p->now->newton_iterations, halved = p->now->halved;
+    int64_t iterations = p->now->newton_iterations, halved = p->now->halved, shortened = p->now->shortened;
 
     state_swap(p->now, &p->trial[0]);
     p->now->newton_iterations = iterations;
     p->now->halved = halved;
+    p->now->shortened = shortened;
     p->now->steps++;
 }
 
@@ -189,7 +215,8 @@ static int advance(stepper *p, double dt, int halvings, error *err)
     if (halvings == HALVINGS)
         return error_set(err, ERR_CONVERGE, "no convergence at t = %.6g with a step of %.3g, %d times halved: %s",
                          now->t, dt, HALVINGS, p->report.why);
-    p->now->halved++;
+    p->now->halved += !p->too_far;
+    p->now->shortened += p->too_far != FAR_NOT;
     TRY(advance(p, dt / 2, halvings + 1, err));
     return advance(p, dt / 2, halvings + 1, err);
 }

@@ -29,6 +29,8 @@ typedef struct stepper {
     double *history, *level;                        /* [n_dof] */
     double *reaction[REACTIONS], *saved[REACTIONS]; /* [n_dof]; without bodies only that of all terms */
     newton_report report;
+    enum too_far too_far;   /* why the last step was refused before or after it was solved */
+    int said[FAR_BODY + 1]; /* warnings given */
     arena memory;
 } stepper;
 

@@ -22,6 +22,7 @@ static const struct member {
     {PER_BODY, offsetof(state, pose_before), sizeof(pose)},
     {PER_STATE, offsetof(state, steps), sizeof(int64_t)},
     {PER_STATE, offsetof(state, halved), sizeof(int64_t)},
+    {PER_STATE, offsetof(state, shortened), sizeof(int64_t)},
     {PER_STATE, offsetof(state, newton_iterations), sizeof(int64_t)},
     {PER_STATE, offsetof(state, written), sizeof(double)},
 };

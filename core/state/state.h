@@ -20,6 +20,7 @@ typedef struct state {
     double *x, *before;       /* [n_dof] unknowns now and a step ago                             */
     pose *pose, *pose_before; /* [n_body] of the bodies now and a step ago                       */
     int64_t steps, halved;    /* steps of the scheme so far; how often one was repeated in halves */
+    int64_t shortened;        /* steps that would have carried a body too far */
     int64_t newton_iterations;
     double written; /* time of the last file of fields, s */
     arena memory;

@@ -185,6 +185,9 @@ typedef struct pf_term {
     pf_residual_fn *residual;
     pf_residual_c_fn *residual_c; /* the same source compiled for complex numbers         */
     pf_jacobian_fn *jacobian;     /* by hand, or NULL: complex step, or else differences  */
+    /* PF_PAIR (1.2): gap, m, beyond which the term does nothing, for bodies of this size across, m, and cells of
+     * size h, m; NULL: `size`.  The kernel looks for pairs as far as some term asks. */
+    double (*reach)(const void *params, double size, double h);
 } pf_term;
 
 typedef struct pf_plugin {

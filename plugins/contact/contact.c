@@ -34,6 +34,22 @@ static inline double force_of(const pf_batch *b, const struct contact *c, uint32
     return c->force > 0 ? c->force : c->strength * sqrt(g) * fmax(weight[0], weight[1]);
 }
 
+static double repulsion_reach(const void *params, double size, double h)
+{
+    const struct contact *c = params;
+
+    (void)h;
+    return c->range > 0 ? c->range : 0.2 * size;
+}
+
+static double film_reach(const void *params, double size, double h)
+{
+    const struct film *f = params;
+
+    (void)size;
+    return f->range * h;
+}
+
 #include <plugflow/twin_real.h>
 #include "equations.h"
 #include <plugflow/twin_complex.h>
@@ -53,6 +69,7 @@ static const pf_term repulsion = {
                         "force at contact, in units of the weight under water of a box round the body", .dflt = 5,
                         PF_NOT_NEGATIVE),
               PF_NUMBER(struct contact, force, "N", "force at contact, instead of strength", PF_NOT_NEGATIVE)),
+    .reach = repulsion_reach,
 };
 
 static const pf_term lubrication = {
@@ -71,6 +88,7 @@ static const pf_term lubrication = {
               PF_NUMBER(struct film, floor, "1",
                         "gap below which the resistance grows no more (roughness), in cells", .dflt = 0.1,
                         PF_NOT_NEGATIVE)),
+    .reach = film_reach,
 };
 
 static const pf_plugin contact = {

@@ -52,16 +52,21 @@ static void the_example_is_not_suspected_of_a_wrong_jacobian(void **state)
                  "heated_cavity");
 }
 
-/* As many matrices as steps; one residual more to begin with, one for the last correction, one for the output. */
+/* As many matrices as steps; one residual more to begin with, one for the last correction, one for the output.  At
+ * Re = 400 one step is halved: what was evaluated at its whole length is lost. */
 static void an_iteration_takes_one_evaluation(void **state)
 {
     double n;
 
     (void)state;
-    assert_ran(plugflow("run cases/cavity2d.lua --quiet --set re=400 --out %s/cost", scratch()), 0, NULL);
+    assert_ran(plugflow("run cases/cavity2d.lua --quiet --set re=100 --out %s/cost", scratch()), 0, NULL);
     n = summary("cost", "newton_iterations");
     assert_between(summary("cost", "matrices"), n, n);
     assert_between(summary("cost", "evaluations"), n + 1, n + 3);
+    assert_ran(plugflow("run cases/cavity2d.lua --quiet --set re=400 --out %s/cost", scratch()), 0, NULL);
+    n = summary("cost", "newton_iterations");
+    assert_between(summary("cost", "matrices"), n, n + 1);
+    assert_between(summary("cost", "evaluations"), n + 1, n + 6);
 }
 
 int main(void)
