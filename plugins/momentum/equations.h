@@ -77,3 +77,22 @@ static int F(traction)(const pf_batch *b, const NUM *const *in, NUM *const *out)
             v[a * LD + i] = -traction[a * LD + i];
     return PF_OK;
 }
+
+/* (p_b - rho g.x) n . v, the traction -p_b n of a given pressure p_b; without rho g.x unless p is the reduced
+ * pressure */
+static int F(pressure)(const pf_batch *b, const NUM *const *in, NUM *const *out)
+{
+    const pf_fluid *f = b->params;
+    const NUM *restrict pressure = in[0];
+    NUM *restrict v = out[0];
+
+    for (uint32_t a = 0; a < b->dim; a++)
+        PF_LANES_OF (b, i) {
+            double hydrostatic = 0;
+
+            for (uint32_t k = 0; k < b->dim; k++)
+                hydrostatic += f->density * f->gravity[k] * b->x[k * LD + i];
+            v[a * LD + i] = (pressure[i] - (f->reduced_pressure ? hydrostatic : 0)) * b->normal[a * LD + i];
+        }
+    return PF_OK;
+}

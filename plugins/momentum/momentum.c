@@ -132,6 +132,18 @@ static const pf_term traction = {
     PF_EXAMPLES({"t = (1, 2)", 2, fluid_2d, (double[]){1, 2}, (double[]){-1, -2}, 1e-15}),
 };
 
+static const pf_term pressure = {
+    PF_TERM(pressure),
+    .where = PF_FACET,
+    .flags = PF_LINEAR | PF_BY_BOUNDARY,
+    .doc = "p_b\\,n\\cdot v",
+    .cite = "Heywood, Rannacher and Turek 1996, Int. J. Numer. Methods Fluids 22:325",
+    PF_IN({"pressure", NULL, PF_DATA, PF_SCALAR}),
+    PF_OUT({"v", "u", PF_VALUE, PF_VECTOR}),
+    FLUID,
+    PF_EXAMPLES({"p_b = 10, n = (0.6, -0.8)", 2, fluid_2d, (double[]){10}, (double[]){6, -8}, 1e-15}),
+};
+
 static const pf_plugin momentum = {
     PF_PLUGIN,
     .name = "momentum",
@@ -140,6 +152,6 @@ static const pf_plugin momentum = {
     .license = "GPL-3.0-or-later",
     .doc = "momentum balance of an incompressible Newtonian fluid",
     PF_FIELDS(PF_FIELD_VELOCITY, PF_FIELD_PRESSURE),
-    PF_TERMS(&inertia, &convection, &stress, &body_force, &traction),
+    PF_TERMS(&inertia, &convection, &stress, &body_force, &traction, &pressure),
 };
 PF_ENTRY(momentum)

@@ -115,6 +115,28 @@ static void symmetry_replaces_half_a_channel(void **state)
     assert_between(summary("o", "errors.p.l2"), 0, 1e-11);
 }
 
+/* Channel flow driven by given pressures at both ends: the true ones, with their hydrostatic part, also where the
+ * unknown is the reduced pressure. */
+static void given_pressures_drive_poiseuille_flow(void **state)
+{
+    (void)state;
+    put_file("driven.lua",
+             "local reduced = param('reduced', 0) == 1\nmesh { box = {{0,0},{2,1}}, cells = {6,5} }\n"
+             "fluid { density = 2, viscosity = 0.1, gravity = {0,-10}, reduced_pressure = reduced }\n"
+             "term 'continuity' {}\nterm 'momentum' {}\n"
+             "local function p(x, y) return 1 - 0.2 * x - 20 * y end\n"
+             "boundary 'left' { pressure = p, u = {free, 0} }\nboundary 'right' { pressure = p, u = {free, 0} }\n"
+             "boundary '*' { u = {0,0} }\n"
+             "exact { u = function(x, y) return y * (1 - y), 0 end, "
+             "p = function(x, y) return p(x, y) + (reduced and 20 * y or 0) end }\n");
+    for (int k = 0; k < 2; k++) {
+        assert_ran(plugflow("run %s/driven.lua --quiet --set reduced=%d --out %s/o", scratch(), k, scratch()), 0,
+                   NULL);
+        assert_between(summary("o", "errors.u.l2"), 0, 1e-11);
+        assert_between(summary("o", "errors.p.l2"), 0, 1e-11);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -123,6 +145,7 @@ int main(void)
         cmocka_unit_test(uniform_flow_through_a_periodic_box_is_exact),
         cmocka_unit_test(fluid_at_rest_stays_at_rest),
         cmocka_unit_test(symmetry_replaces_half_a_channel),
+        cmocka_unit_test(given_pressures_drive_poiseuille_flow),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
