@@ -58,7 +58,8 @@ typedef struct body_points {
     const int64_t *tie;           /* group of the carriers of both                          */
     const int32_t *tie_cell;
     const double *tie_weight;
-    const double (*tie_ref)[3]; /* [n_tie][points of a cell] reference coordinates in the root */
+    const double *integral[SPACE_MAX_FIELDS]; /* [n_dof] of each basis function over the fluid; NULL: not known */
+    const double (*tie_ref)[3];               /* [n_tie][points of a cell] reference coordinates in the root */
 } body_points;
 
 /* Near moving bodies history comes along paths that follow the body, not from the place itself:

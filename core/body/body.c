@@ -104,6 +104,7 @@ int bodies_create(bodies *b, const description *d, space *s, const cell_grid *gr
     }
     TRY(cut_rule_create(&b->cut, s->mesh->type, err));
     TRY(cut_basis(b, err));
+    TRY(share_integrals_create(b, err));
     b->n_image = mesh_images(s->mesh, b->image);
     ARENA_NEW(&b->memory, b->near_cell, s->mesh->n_cell, err);
     ARENA_NEW(&b->memory, b->envelope.first_tie, s->mesh->n_cell, err);

@@ -69,9 +69,10 @@ typedef struct placement {
     surface_list surface;
     tie_list tie;
     int64_t n_pair;
-    near_pair *pair;    /* bodies near each other or a wall */
-    uint8_t *idle;      /* [n_dof] 1: off, see body_points */
-    body_points points; /* all of it as the assembly reads it */
+    near_pair *pair;                    /* bodies near each other or a wall */
+    double *integral[SPACE_MAX_FIELDS]; /* [n_dof] of each basis function over the fluid, of scalars of the mesh */
+    uint8_t *idle;                      /* [n_dof] 1: off, see body_points */
+    body_points points;                 /* all of it as the assembly reads it */
     arena memory;
 } placement;
 
@@ -118,7 +119,8 @@ typedef struct bodies {
     int fluid_only[SPACE_MAX_FIELDS]; /* fields with equations in the fluid only */
     const cell_grid *grid;
     cut_rule cut;
-    double *cut_basis;      /* second-order basis at the points of the cut rule */
+    double *integral[SPACE_MAX_FIELDS]; /* [n_dof] of each basis function over all cells, of scalars of the mesh */
+    double *cut_basis;                  /* second-order basis at the points of the cut rule */
     double *whole, *inside; /* [n_node] int phi_i^2 over the domain and over bodies; NULL: no field is restricted */
     int n_image;            /* images of a body by the periods of the mesh: 1, 3, 9, 27 */
     double image[27][3];    /* their shifts; the first is zero */
@@ -209,6 +211,9 @@ int envelope_attach(bodies *b, const pose *at, error *err);
 /* Covered cells and pieces of surface. */
 int covered_cut(const bodies *b, placement *p, error *err);
 int share_weights(const bodies *b, placement *p, error *err);
+/* The integrals of basis functions over all cells, and over the fluid. */
+int share_integrals_create(bodies *b, error *err);
+int share_integrals(const bodies *b, placement *p, error *err);
 /* Part of a cell that is fluid. */
 double share_fluid(const bodies *b, const placement *p, int32_t cell);
 void surface_begin(surface_list *s, int32_t attached);

@@ -6,6 +6,8 @@
  * must not matter by the number of points. */
 #include "body/body.h"
 
+#include "space/evaluate.h"
+
 #include <string.h>
 
 /* Enters a cell, with the weights of all of it unless a body covers it. */
@@ -51,6 +53,45 @@ int share_weights(const bodies *b, placement *p, error *err)
     for (int64_t a = 0; a < s->n_attached; a++)
         if (p->covered_by[s->attached_cell[a]] < 0)
             enter(b, p, s->attached_cell[a], a);
+    return 0;
+}
+
+int share_integrals_create(bodies *b, error *err)
+{
+    const space *s = b->space;
+    fe_rule rule;
+
+    TRY(fe_rule_cell(s->mesh->type, ASSEMBLE_CELL_DEGREE, &rule, err));
+    for (int f = 0; f < s->n_field; f++) {
+        if (s->field[f].n_comp != 1 || s->field[f].support != PF_ON_MESH)
+            continue;
+        ARENA_NEW(&b->memory, b->integral[f], s->n_dof, err);
+        for (int64_t e = 0; e < s->mesh->n_cell; e++)
+            space_integrate_basis(s, f, e, &rule, 1, b->integral[f]);
+    }
+    return 0;
+}
+
+int share_integrals(const bodies *b, placement *p, error *err)
+{
+    const space *s = b->space;
+    fe_rule covered = {.n = b->cut.n};
+
+    memcpy(covered.x, b->cut.x, (size_t)b->cut.n * sizeof *b->cut.x);
+    for (int f = 0; f < s->n_field; f++) {
+        if (!b->integral[f])
+            continue;
+        ARENA_NEW(&p->memory, p->integral[f], s->n_dof, err);
+        memcpy(p->integral[f], b->integral[f], (size_t)s->n_dof * sizeof *p->integral[f]);
+        for (int64_t k = 0; k < p->n_near; k++) {
+            int32_t e = p->near_cell[k];
+
+            for (int q = 0; q < covered.n; q++)
+                covered.w[q] =
+                    b->cut.whole[q] - (p->cover[e] == COVER_PART ? p->cut_weight[p->cut_of[e] * b->cut.n + q] : 0);
+            space_integrate_basis(s, f, e, &covered, -1, p->integral[f]);
+        }
+    }
     return 0;
 }
 

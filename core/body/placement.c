@@ -28,30 +28,34 @@ static void placement_destroy(placement *p)
 /* The placement as the assembly reads it. */
 static body_points view(const bodies *b, const placement *p)
 {
-    return (body_points){.stamp = p->stamp,
-                         .body = p->body,
-                         .density = b->density,
-                         .idle = p->idle,
-                         .shift = (const double(*)[3])b->envelope.shift,
-                         .off = p->cover,
-                         .n_pair = p->n_pair,
-                         .pair = p->pair,
-                         .n_solid = p->n_covered,
-                         .n_cut = p->n_cut,
-                         .solid = p->covered,
-                         .cut = p->cut_cell,
-                         .solid_weight = p->covered_weight,
-                         .cut_weight = p->cut_weight,
-                         .n_surface = p->surface.n,
-                         .surface = p->surface.attached,
-                         .surface_ref = (const double(*)[3])p->surface.ref,
-                         .surface_normal = (const double(*)[3])p->surface.normal,
-                         .surface_weight = (const double *)p->surface.weight,
-                         .n_tie = p->tie.n,
-                         .tie = p->tie.group,
-                         .tie_cell = p->tie.cell,
-                         .tie_weight = p->tie.weight,
-                         .tie_ref = (const double(*)[3])p->tie.ref};
+    body_points v = {.stamp = p->stamp,
+                     .body = p->body,
+                     .density = b->density,
+                     .idle = p->idle,
+                     .shift = (const double(*)[3])b->envelope.shift,
+                     .off = p->cover,
+                     .n_pair = p->n_pair,
+                     .pair = p->pair,
+                     .n_solid = p->n_covered,
+                     .n_cut = p->n_cut,
+                     .solid = p->covered,
+                     .cut = p->cut_cell,
+                     .solid_weight = p->covered_weight,
+                     .cut_weight = p->cut_weight,
+                     .n_surface = p->surface.n,
+                     .surface = p->surface.attached,
+                     .surface_ref = (const double(*)[3])p->surface.ref,
+                     .surface_normal = (const double(*)[3])p->surface.normal,
+                     .surface_weight = (const double *)p->surface.weight,
+                     .n_tie = p->tie.n,
+                     .tie = p->tie.group,
+                     .tie_cell = p->tie.cell,
+                     .tie_weight = p->tie.weight,
+                     .tie_ref = (const double(*)[3])p->tie.ref};
+
+    for (int f = 0; f < b->space->n_field; f++)
+        v.integral[f] = p->integral[f];
+    return v;
 }
 
 static int fill_placement(bodies *b, placement *p, const pose *at, int *fresh, error *err)
@@ -63,6 +67,7 @@ static int fill_placement(bodies *b, placement *p, const pose *at, int *fresh, e
         p->body[k] = solid_at(&b->spec[k].shape, &at[k]);
     TRY(covered_cut(b, p, err));
     TRY(share_weights(b, p, err));
+    TRY(share_integrals(b, p, err));
     if (b->has_ties)
         TRY(ties_make(b, p, fresh, err));
     if (p->tie.n_rootless > 0 && b->rootless++ == 0)

@@ -153,7 +153,7 @@ static int tell_warnings(run *r, error *err)
 static void take_solution(run *r)
 {
     memcpy(r->x, r->p->state.x, (size_t)r->p->space.n_dof * sizeof *r->x);
-    gauge_zero_mean(&r->p->system, r->x);
+    gauge_zero_mean(&r->p->system, problem_points(r->p), r->x);
 }
 
 static int steady(run *r, const volatile sig_atomic_t *stop, error *err)

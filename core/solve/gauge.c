@@ -8,6 +8,7 @@
  * of each test function, and one value is held, which leaves all equations satisfied. */
 #include "solve/solve.h"
 #include "solve/vector.h"
+#include "space/evaluate.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,33 +18,15 @@
 /* Integral of each basis function of a field over whole cells. */
 static int whole_cells(const space *s, int field, double *weight, error *err)
 {
-    const mesh *m = s->mesh;
-    const fe_cell *c = m->type;
-    int order = s->field[field].order, n = fe_n_basis(c, order);
     fe_rule rule;
 
-    TRY(fe_rule_cell(c, ASSEMBLE_CELL_DEGREE, &rule, err));
-    memset(weight, 0, (size_t)s->n_dof * sizeof *weight);
-    for (int q = 0; q < rule.n; q++) {
-        double g[FE_MAX_NODES], dg[FE_MAX_NODES][3], b[FE_MAX_NODES], db[FE_MAX_NODES][3];
-
-        fe_basis(c, 2, rule.x[q], g, dg);
-        fe_basis(c, order, rule.x[q], b, db);
-        for (int64_t e = 0; e < m->n_cell; e++) {
-            double j[3][3], at_x[3], det = mesh_map(m, e, g, (const double(*)[3])dg, at_x, j);
-
-            for (int i = 0; i < n; i++) {
-                int64_t at = s->first[field][space_carrier(s, e, assemble_local(s, field, i))];
-
-                for (int k = 0; k < s->field[field].n_comp; k++)
-                    weight[at + k] += rule.w[q] * det * b[i];
-            }
-        }
-    }
+    TRY(fe_rule_cell(s->mesh->type, ASSEMBLE_CELL_DEGREE, &rule, err));
+    for (int64_t e = 0; e < s->mesh->n_cell; e++)
+        space_integrate_basis(s, field, e, &rule, 1, weight);
     return 0;
 }
 
-/* The weights in use: those that the owner set, else of whole cells. */
+/* The weights in use: over the fluid where bodies are, else over whole cells. */
 static const double *weights(const gauge *g, int f)
 {
     return g->weight[f] ? g->weight[f] : g->whole[f];
@@ -110,7 +93,7 @@ int gauge_detect(newton_system *s, int *changed, error *err)
         g->free[f] = is_free;
         g->defect[f] = is_free ? g->defect[f] : 0;
         g->pin[f] = is_free ? first_row(s, f) : -1;
-        if (is_free && !weights(g, f)) {
+        if (is_free && !g->whole[f]) {
             ARENA_NEW(&s->memory, g->whole[f], sp->n_dof, err);
             TRY(whole_cells(sp, f, g->whole[f], err));
         }
@@ -169,10 +152,17 @@ void gauge_pin(newton_system *s)
     }
 }
 
-void gauge_zero_mean(const newton_system *s, double *x)
+void gauge_use(newton_system *s, const body_points *bodies)
+{
+    for (int f = 0; f < s->space->n_field; f++)
+        s->gauge.weight[f] = bodies ? bodies->integral[f] : NULL;
+}
+
+void gauge_zero_mean(newton_system *s, const body_points *bodies, double *x)
 {
     const space *sp = s->space;
 
+    gauge_use(s, bodies);
     for (int f = 0; f < sp->n_field; f++) {
         const double *w = weights(&s->gauge, f);
 

@@ -60,8 +60,8 @@ enum { LINEAR_MAX_ITERATIONS = 30 }; /* of GMRES */
 typedef struct gauge {
     double tolerance;           /* of the null vector, relative; 0: round-off       */
     int free[SPACE_MAX_FIELDS]; /* the field has a free constant                    */
-    /* [n_dof] Integral of each basis function over where the field has equations: of the owner, who may
-     * set it at any time; NULL: `whole`, over whole cells. */
+    /* [n_dof] Integral of each basis function over the fluid, of the placement of the last evaluation; NULL:
+     * `whole`, over whole cells. */
     const double *weight[SPACE_MAX_FIELDS];
     double *whole[SPACE_MAX_FIELDS];
     int64_t pin[SPACE_MAX_FIELDS];   /* row of the value that is held                    */
@@ -119,8 +119,10 @@ int gauge_detect(newton_system *s, int *changed, error *err);
 void gauge_project(newton_system *s, double *residual); /* takes the inconsistent part out */
 /* Scaled norm of what that was, largest of all fields. */
 double gauge_excess(const newton_system *s, const double *scale);
-void gauge_pin(newton_system *s); /* changes the matrix              */
-void gauge_zero_mean(const newton_system *s, double *x);
+void gauge_pin(newton_system *s);                            /* changes the matrix              */
+void gauge_use(newton_system *s, const body_points *bodies); /* what follows is with these bodies (or NULL) */
+/* Takes from free fields their mean over the fluid. */
+void gauge_zero_mean(newton_system *s, const body_points *bodies, double *x);
 
 int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_spec, const pf_solver *solver,
                   int n_thread, error *err);

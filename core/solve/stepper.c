@@ -76,7 +76,7 @@ static int react(stepper *p, newton_time time, const double *x, error *err)
     static const uint32_t only[REACTIONS] = {0, PF_FLUID_FORCE, ASSEMBLE_CONTACT, ASSEMBLE_COUPLING};
 
     memcpy(p->level, x, (size_t)p->now->n_dof * sizeof *x);
-    gauge_zero_mean(p->system, p->level);
+    gauge_zero_mean(p->system, time.bodies, p->level);
     for (int i = 0; i < REACTIONS && p->reaction[i]; i++) {
         time.only = only[i];
         TRY(newton_residual(p->system, &time, p->level, p->reaction[i], err));

@@ -81,6 +81,7 @@ int system_evaluate(newton_system *s, const newton_time *time, const double *x, 
         s->work[d] = time->history ? time->shift * x[d] + time->history[d] : 0;
     if (!st.old)
         st.old = x;
+    gauge_use(s, time->bodies);
     status = assembly_run(&s->assembly, &st, s->residual, with_matrix ? s->linear.value : NULL, diagnose, err);
     s->evaluations++;
     s->matrices += with_matrix;

@@ -52,3 +52,23 @@ void space_evaluate(const space *s, int field, const double *x, int64_t cell, co
         }
     }
 }
+
+void space_integrate_basis(const space *s, int field, int64_t cell, const fe_rule *rule, double factor,
+                           double *integral)
+{
+    const fe_cell *c = s->mesh->type;
+    int order = s->field[field].order;
+
+    for (int q = 0; q < rule->n; q++) {
+        double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], place[3], j[3][3];
+        double volume = factor * rule->w[q] * mesh_place(s->mesh, cell, rule->x[q], place, j);
+
+        fe_basis(c, order, rule->x[q], n, dn);
+        for (int i = 0; i < fe_n_basis(c, order); i++) {
+            const double *at = nodal(s, field, integral, cell, i);
+
+            for (int k = 0; at && k < s->field[field].n_comp; k++)
+                integral[at - integral + k] += volume * n[i];
+        }
+    }
+}

@@ -19,4 +19,9 @@ typedef struct point_values {
 void space_evaluate(const space *s, int field, const double *x, int64_t cell, const double *xi,
                     const point_values *want);
 
+/* Adds factor times the integral of each basis function of the field over the cell, by a rule of the reference
+ * cell, to integral[n_dof]. */
+void space_integrate_basis(const space *s, int field, int64_t cell, const fe_rule *rule, double factor,
+                           double *integral);
+
 #endif
