@@ -60,8 +60,9 @@ enum { LINEAR_MAX_ITERATIONS = 30 }; /* of GMRES */
 typedef struct gauge {
     double tolerance;           /* of the null vector, relative; 0: round-off       */
     int free[SPACE_MAX_FIELDS]; /* the field has a free constant                    */
+    int approximate;            /* one that is so within the tolerance only         */
     /* [n_dof] Integral of each basis function over where the field has equations: of the owner, who may
-     * set it at any time; NULL: `whole`, over whole cells. */
+     * set it at any time, for good; NULL: `whole`, over whole cells. */
     const double *weight[SPACE_MAX_FIELDS];
     double *whole[SPACE_MAX_FIELDS];
     int64_t pin[SPACE_MAX_FIELDS];   /* row of the value that is held                    */
