@@ -75,6 +75,7 @@ static int polish(iterate *it, double *change, error *err)
     newton_system *s = it->s;
     size_t bytes = (size_t)s->space->n_dof * sizeof *it->x;
     double norm[SPACE_MAX_FIELDS], before = it->report->history[it->report->iterations], own;
+    const gauge gauge_before = s->gauge;
     int status;
 
     vector_negative(s->space, s->residual, s->rhs);
@@ -96,6 +97,7 @@ static int polish(iterate *it, double *change, error *err)
     }
     memcpy(it->x, s->trial, bytes);
     memcpy(s->residual, s->scale, bytes);
+    s->gauge = gauge_before;
     return 0;
 }
 
