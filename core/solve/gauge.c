@@ -32,13 +32,13 @@ static const double *weights(const gauge *g, int f)
     return g->weight[f] ? g->weight[f] : g->whole[f];
 }
 
-/* Whether the constant of field f is in both null spaces of the matrix.  Rows: sum over the columns of f, sum of
- * absolute values there, squares of the rows of f. */
-static int has_constant(newton_system *s, int f)
+/* How far the constant of field f is from both null spaces of the matrix: |J 1_f| / | |J| 1_f | or the same from
+ * the left, the larger one.  Rows: sum over the columns of f, sum of absolute values there, norm of the rows of f.
+ */
+static double constant_defect(newton_system *s, int f)
 {
     const space *sp = s->space;
     const double *value = s->linear.value;
-    double tolerance = s->gauge.tolerance > 0 ? s->gauge.tolerance : ROUND_OFF;
     double *sum = s->rhs, *size = s->scale, *square = s->trial, *left = s->work, right_size, left_size;
 
     memset(left, 0, (size_t)sp->n_free * sizeof *left);
@@ -64,8 +64,9 @@ static int has_constant(newton_system *s, int f)
     }
     right_size = vector_norm(sp->n_free, size);
     left_size = vector_norm(sp->n_free, square);
-    return right_size > 0 && left_size > 0 && vector_norm(sp->n_free, sum) <= tolerance * right_size &&
-           vector_norm(sp->n_free, left) <= tolerance * left_size;
+    if (!(right_size > 0 && left_size > 0))
+        return INFINITY;
+    return vector_worse(vector_norm(sp->n_free, sum) / right_size, vector_norm(sp->n_free, left) / left_size);
 }
 
 /* The first row of the field that takes part. */
@@ -83,12 +84,15 @@ int gauge_detect(newton_system *s, int *changed, error *err)
 {
     space *sp = s->space;
     gauge *g = &s->gauge;
+    double tolerance = g->tolerance > 0 ? g->tolerance : ROUND_OFF;
 
-    *changed = 0;
+    *changed = g->approximate = 0;
     for (int f = 0; f < sp->n_field; f++) {
-        int is_free = sp->field[f].n_comp == 1 && sp->field[f].support == PF_ON_MESH &&
-                      !vector_field_prescribed(sp, f) && has_constant(s, f);
+        int may = sp->field[f].n_comp == 1 && sp->field[f].support == PF_ON_MESH && !vector_field_prescribed(sp, f);
+        double defect = may ? constant_defect(s, f) : INFINITY;
+        int is_free = defect <= tolerance;
 
+        g->approximate |= is_free && defect > ROUND_OFF;
         *changed |= is_free != g->free[f];
         g->free[f] = is_free;
         g->defect[f] = is_free ? g->defect[f] : 0;

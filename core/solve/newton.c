@@ -75,6 +75,7 @@ static int polish(iterate *it, double *change, error *err)
     newton_system *s = it->s;
     size_t bytes = (size_t)s->space->n_dof * sizeof *it->x;
     double norm[SPACE_MAX_FIELDS], before = it->report->history[it->report->iterations], own;
+    const gauge gauge_before = s->gauge;
     int status;
 
     vector_negative(s->space, s->residual, s->rhs);
@@ -96,6 +97,7 @@ static int polish(iterate *it, double *change, error *err)
     }
     memcpy(it->x, s->trial, bytes);
     memcpy(s->residual, s->scale, bytes);
+    s->gauge = gauge_before;
     return 0;
 }
 
@@ -322,7 +324,8 @@ static void observe_order(newton_report *r)
 /* With the true matrix Newton's method ends with order two.  Three orders near one in a row, up to the end, mean
  * another matrix; the report then has their mean.  Counted are whole steps that clearly made the residual fall (so
  * that neither the way to the solution nor round-off is taken for it), by much less than linear systems solved to a
- * tolerance allow. */
+ * tolerance allow, and only where all constants are free to round-off: what is taken out of the residual for one
+ * that is not quite so no step foresees. */
 static void observe_linear(const iterate *it)
 {
     enum { IN_A_ROW = 3 };
@@ -333,7 +336,7 @@ static void observe_linear(const iterate *it)
 
     while (k > 1 && h[k] < LEAST)
         k--;
-    for (; k > 1 && n < IN_A_ROW; k--, n++) {
+    for (; k > 1 && n < IN_A_ROW && !it->s->gauge.approximate; k--, n++) {
         double fall = h[k] / h[k - 1], before = h[k - 1] / h[k - 2], order = log(fall) / log(before);
 
         if (h[k - 2] > MOST || it->length[k - 1] < 1 || it->length[k - 2] < 1 || !(fmax(fall, before) < 0.7) ||

@@ -60,6 +60,7 @@ enum { LINEAR_MAX_ITERATIONS = 30 }; /* of GMRES */
 typedef struct gauge {
     double tolerance;           /* of the null vector, relative; 0: round-off       */
     int free[SPACE_MAX_FIELDS]; /* the field has a free constant                    */
+    int approximate;            /* one that is so within the tolerance only         */
     /* [n_dof] Integral of each basis function over the fluid, of the placement of the last evaluation; NULL:
      * `whole`, over whole cells. */
     const double *weight[SPACE_MAX_FIELDS];

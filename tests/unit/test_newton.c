@@ -234,7 +234,7 @@ int main(void)
         cmocka_unit_test_teardown(order_one_gives_a_wrong_jacobian_away, teardown),
         cmocka_unit_test_teardown(a_constant_is_found_free_whenever_it_is, teardown),
         cmocka_unit_test_teardown(a_constant_that_is_free_at_the_start_only_is_held, teardown),
-        cmocka_unit_test_teardown(the_owner_may_give_the_weights, teardown),
+        cmocka_unit_test_teardown(the_mean_is_taken_over_the_fluid, teardown),
         cmocka_unit_test_teardown(unknowns_that_are_off_do_not_change_the_measure, teardown),
     };
 
