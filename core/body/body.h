@@ -120,9 +120,11 @@ typedef struct bodies {
     double *whole, *inside; /* [n_node] int phi_i^2 over the domain and over bodies; NULL: no field is restricted */
     int n_image;            /* images of a body by the periods of the mesh: 1, 3, 9, 27 */
     double image[27][3];    /* their shifts; the first is zero */
-    double h_mean;          /* of the cells */
-    double pair_range;      /* gap up to which pairs are looked for */
-    unsigned walls;         /* bit k: side k of the box is a wall   */
+    int n_plane;            /* symmetry planes */
+    symmetry_plane plane[DESCRIBE_MAX_PLANES];
+    double h_mean;     /* of the cells */
+    double pair_range; /* gap up to which pairs are looked for */
+    unsigned walls;    /* bit k: side k of the box is a wall   */
     envelope envelope;
     body_paths paths;
     placement *now;     /* the last one made */
@@ -140,6 +142,9 @@ enum placement_change {
     PLACEMENT_PATTERN /* the groups of the space, so its pattern, too */
 };
 
+/* Refuses placements at the start that cannot be (places.c): what is wrong is collected in the case, doubtful ones
+ * are warnings.  The mesh has its periodic boundaries; of a box without a map one cell is enough.  ERR_MEMORY. */
+int bodies_check_places(const description *d, const mesh *m, error *err);
 /* Finds what stays, and places the bodies where they start. */
 int bodies_create(bodies *b, const description *d, space *s, const conditions *c, warning_list *w, error *err);
 void bodies_destroy(bodies *b);
@@ -187,6 +192,10 @@ const moving_frame *bodies_paths(bodies *b, const placement *now, int levels, co
 
 /* --- between the files of this folder --- */
 
+/* Shifts of the images of a body (at most 27): by -1, 0 or 1 of each period, zero first.  Returns how many. */
+int bodies_images(const mesh *m, double (*shift)[3]);
+/* Which of n symmetry planes go through the body's centre: how many (symmetry.c). */
+int symmetry_planes_at(const symmetry_plane *plane, int n, const solid *b, int *which);
 /* The body of an attached pair, at the place of its image there. */
 solid body_image(const bodies *b, const placement *p, int64_t attached);
 int envelope_holds(const bodies *b, const pose *at);

@@ -44,26 +44,6 @@ static int add_set(conditions *c, space *s, int line, int field, int comp, const
     return 0;
 }
 
-/* Axis along which a facet's normal lies, or -1. */
-static int facet_axis(const mesh *m, int64_t f)
-{
-    const int32_t *cell = m->cell + (int64_t)m->facet[f].cell * m->type->n_node;
-
-    for (int k = 0; k < m->dim; k++) {
-        double low = INFINITY, high = -INFINITY;
-
-        for (int i = 0; i < m->type->facet_nodes; i++) {
-            double x = m->x[(int64_t)cell[m->type->facet[m->facet[f].local][i]] * m->dim + k];
-
-            low = fmin(low, x);
-            high = fmax(high, x);
-        }
-        if (high - low < 1e-8 * m->h[m->facet[f].cell])
-            return k;
-    }
-    return -1;
-}
-
 /* No flow through: the component of every vector field along the normal of each facet is zero. */
 static int add_symmetry(conditions *c, const description *d, space *s, int line, error *err)
 {
@@ -73,7 +53,7 @@ static int add_symmetry(conditions *c, const description *d, space *s, int line,
 
     ARENA_NEW(&c->memory, axis, m->n_facet, err);
     for (int64_t f = 0; f < m->n_facet; f++) {
-        axis[f] = c->facet[line][f] ? (int8_t)facet_axis(m, f) : -1;
+        axis[f] = c->facet[line][f] ? (int8_t)describe_facet_axis(m, f) : -1;
         if (c->facet[line][f] && axis[f] < 0) {
             case_wrong(
                 d->c, l->block, "symmetry",
