@@ -48,30 +48,44 @@ static int cut_basis(bodies *b, error *err)
     return 0;
 }
 
-/* Bodies that are few cells across. */
-static void warn_resolution(const bodies *b)
+/* Bodies that are few cells across, by the mean size of the cells near them. */
+static int warn_resolution(const bodies *b, error *err)
 {
     const space *s = b->space;
+    arena scratch = {0};
+    double *h, worst = INFINITY;
+    int64_t *n;
+    int few = 0, which = 0;
 
-    for (int k = 0; k < b->n; k++) {
-        double h = 0, thickness = b->spec[k].shape.thickness;
-        int64_t n = 0;
-
-        for (int64_t a = 0; a < s->n_attached; a++)
-            if (s->attached_particle[a] == k) {
-                h += s->mesh->h[s->attached_cell[a]];
-                n++;
-            }
-        h = n ? h / (double)n : INFINITY;
-        if (thickness < 3.99 * h) {
-            warning_add(
-                b->warnings,
-                "particle %d is %.3g wide, %.2g cells; below 4 cells across forces are off by more than a few "
-                "per cent",
-                k, thickness, thickness / h);
-            return;
-        }
+    ARENA_NEW(&scratch, h, b->n, err);
+    n = arena_alloc(&scratch, (size_t)b->n, sizeof *n);
+    for (int64_t a = 0; n && a < s->n_attached; a++) {
+        h[s->attached_particle[a]] += s->mesh->h[s->attached_cell[a]];
+        n[s->attached_particle[a]]++;
     }
+    for (int k = 0; n && k < b->n; k++) {
+        double across = n[k] ? b->spec[k].shape.thickness * (double)n[k] / h[k] : 0;
+
+        few += across < 3.99;
+        which = across < worst ? k : which;
+        worst = fmin(across, worst);
+    }
+    arena_free(&scratch);
+    if (!n)
+        return error_memory(err, "bodies", 8.0 * b->n);
+    if (few == 1)
+        warning_add(
+            b->warnings,
+            "particle %d (line %d) is %.3g wide, %.2g cells; below 4 cells across forces are off by more than a "
+            "few per cent",
+            which, b->spec[which].block->line, b->spec[which].shape.thickness, worst);
+    else if (few > 1)
+        warning_add(
+            b->warnings,
+            "%d of %d bodies are less than 4 cells across, the worst of them particle %d (line %d): %.3g wide, "
+            "%.2g cells; their forces are off by more than a few per cent",
+            few, b->n, which, b->spec[which].block->line, b->spec[which].shape.thickness, worst);
+    return 0;
 }
 
 int bodies_create(bodies *b, const description *d, space *s, const cell_grid *grid, const conditions *c,
@@ -102,6 +116,7 @@ int bodies_create(bodies *b, const description *d, space *s, const cell_grid *gr
         b->density[k] = d->body[k].density;
         start[k] = d->body[k].start;
     }
+    TRY(describe_planes(d, s->mesh, b->plane, &b->n_plane, err));
     TRY(cut_rule_create(&b->cut, s->mesh->type, err));
     TRY(cut_basis(b, err));
     TRY(share_integrals_create(b, err));
@@ -113,8 +128,7 @@ int bodies_create(bodies *b, const description *d, space *s, const cell_grid *gr
     TRY(pairs_create(b, err));
     bodies_hold(b);
     TRY(bodies_place(b, start, &ignored, err));
-    warn_resolution(b);
-    return 0;
+    return warn_resolution(b, err);
 }
 
 int bodies_check(const bodies *b, error *err)

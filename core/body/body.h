@@ -127,7 +127,9 @@ typedef struct bodies {
     double h_mean;          /* of the cells */
     double pair_range;      /* gap up to which some term acts on pairs */
     int has_walls;
-    wall walls; /* boundaries where a vector field of the mesh is prescribed */
+    wall walls;  /* boundaries where a vector field of the mesh is prescribed */
+    int n_plane; /* symmetry planes */
+    symmetry_plane plane[DESCRIBE_MAX_PLANES];
     envelope envelope;
     body_paths paths;
     placement *now;     /* the last one made */
@@ -145,6 +147,9 @@ enum placement_change {
     PLACEMENT_PATTERN /* the groups of the space, so its pattern, too */
 };
 
+/* Refuses placements at the start that cannot be (places.c): what is wrong is collected in the case, doubtful ones
+ * are warnings.  The mesh has its periodic boundaries; of a box without a map one cell is enough.  ERR_MEMORY. */
+int bodies_check_places(const description *d, const mesh *m, error *err);
 /* Finds what stays, and places the bodies where they start. */
 int bodies_create(bodies *b, const description *d, space *s, const cell_grid *grid, const conditions *c,
                   warning_list *w, error *err);
@@ -204,6 +209,8 @@ const moving_frame *bodies_paths(bodies *b, const placement *now, int levels, co
 
 /* --- between the files of this folder --- */
 
+/* Which of n symmetry planes go through the body's centre: how many (symmetry.c). */
+int symmetry_planes_at(const symmetry_plane *plane, int n, const solid *b, int *which);
 /* The body of an attached pair, at the place of its image there. */
 solid body_image(const bodies *b, const placement *p, int64_t attached);
 int envelope_holds(const bodies *b, const pose *at);

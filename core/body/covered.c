@@ -31,16 +31,14 @@ static double covered_volume(const bodies *b, const placement *p, int64_t first)
     return volume;
 }
 
-/* Part of the body that lies inside the domain: 1; where it reaches over the edge a half, quarter, eighth, or 0 for
- * unknown. */
-static double inside_part(double volume, double whole)
+/* Part of body k that lies inside the domain: 1, or where symmetry planes go through its centre a half, a quarter
+ * or an eighth; 0 for unknown, where the covered volume is another one. */
+static double inside_part(const bodies *b, const solid *body, double volume)
 {
-    double fraction = 1;
+    int which[DESCRIBE_MAX_PLANES];
+    double fraction = pow(0.5, symmetry_planes_at(b->plane, b->n_plane, body, which));
 
-    for (int i = 1; i <= 3; i++)
-        if (fabs(volume / whole - pow(0.5, i)) < 0.03 * pow(0.5, i))
-            fraction = pow(0.5, i);
-    return fraction == 1 && fabs(volume / whole - 1) > 0.05 ? 0 : fraction;
+    return fabs(volume / (fraction * body->shape->volume) - 1) > 0.05 ? 0 : fraction;
 }
 
 /* Cuts the cells attached to body k, from attached pair *a on. */
@@ -83,8 +81,7 @@ static int cut_body(const bodies *b, placement *p, int k, int64_t *a, error *err
         memcpy(shift[i], b->envelope.shift[p->covered[first + i]], sizeof *shift);
     }
     status = shift ? cut_correct(&b->cut, s->mesh, &p->body[k], cell, (const double(*)[3])shift,
-                                 p->covered_weight + first * b->cut.n, n,
-                                 inside_part(volume, b->spec[k].shape.volume), err)
+                                 p->covered_weight + first * b->cut.n, n, inside_part(b, &p->body[k], volume), err)
                    : error_memory(err, "covered cells", 24.0 * (double)n);
     arena_free(&scratch);
     return status;

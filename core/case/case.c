@@ -48,6 +48,7 @@ void case_wrong(case_file *c, const case_block *at, const char *key, const char 
     va_start(ap, fmt);
     vsnprintf(why, sizeof why, fmt, ap);
     va_end(ap);
+    c->n_wrong++;
     if (at)
         text_add(&line, "%s:%d: %s", at->file, line_of_key(c, at, key), why);
     else
@@ -57,6 +58,11 @@ void case_wrong(case_file *c, const case_block *at, const char *key, const char 
         c->n_error++;
     }
     text_free(&line);
+}
+
+int case_line(const case_file *c, const case_block *at, const char *key)
+{
+    return line_of_key(c, at, key);
 }
 
 int case_finish(case_file *c, error *err)

@@ -50,6 +50,7 @@ typedef struct case_file {
     size_t lua_bytes, lua_limit; /* held, and allowed now */
     case_refused refused;
     int n_block, n_set, n_param, n_source, n_error;
+    int n_wrong; /* calls of case_wrong; n_error counts each text once */
     case_block block[CASE_MAX_BLOCKS];
     case_set set[CASE_MAX_SETS];
     case_param param[CASE_MAX_SETS];
@@ -83,6 +84,8 @@ void case_wrong(case_file *c, const case_block *at, const char *key, const char 
     __attribute__((format(printf, 4, 5)));
 /* ERR_CASE with all that was wrong, or 0. */
 int case_finish(case_file *c, error *err);
+/* Line of `key =` in a block (NULL, or not found: the block's own). */
+int case_line(const case_file *c, const case_block *at, const char *key);
 void case_destroy(case_file *c);
 
 /* --- reading a block (reader.c) --- */
@@ -91,6 +94,7 @@ typedef struct reader {
     case_file *c;
     const case_block *b; /* NULL: the block is absent; every key is */
     const char *what;    /* how messages call it: "fluid", "term \"momentum\"" */
+    const char *noun;    /* and its keys; NULL: "key"                           */
     int n_key;
     const char *key[CASE_MAX_KEYS], *doc[CASE_MAX_KEYS];
 } reader;
@@ -111,11 +115,21 @@ int reader_strings(reader *r, const char *key, const char *doc, int most, const 
 /* Leaves the value of the key on the Lua stack if it is a table (then 1) -- pop it. */
 int reader_table(reader *r, const char *key, const char *doc);
 int reader_has(const reader *r, const char *key);
-/* 1 if a key stands there that looks like a slip for this one (reader_close will say so). */
+/* Lua's type of the value (lua.h), LUA_TNIL if it is absent. */
+int reader_type(const reader *r, const char *key);
+/* 1 if a key stands there that no reader has asked for yet and that looks like a slip for this one (reader_close
+ * will say so). */
 int reader_misspelt(const reader *r, const char *key);
 int reader_required(reader *r, const char *key, int status);
+/* Notes a key as valid without reading it; 1 if it is there. */
+int reader_note(reader *r, const char *key, const char *doc);
+/* 1 if some reader has asked for the key or noted it. */
+int reader_asked(const reader *r, const char *key);
 /* Reports the keys that nobody asked for. */
 void reader_close(reader *r);
+/* Of n valid keys the one that other codes call by this name, and what differs beside the name (or NULL); or NULL
+ * (alias.c). */
+const char *case_alias(const char *other, const char *const *valid, int n, const char **note);
 
 /* A Lua function or number on top of the stack as a value; pops it. */
 int case_value(case_file *c, const case_block *b, const char *key, int n, int dim, value *v);

@@ -15,17 +15,22 @@ void reader_open(reader *r, case_file *c, const case_block *b, const char *what)
     *r = (reader){.c = c, .b = b, .what = what};
 }
 
-int reader_has(const reader *r, const char *key)
+int reader_type(const reader *r, const char *key)
 {
-    int there;
+    int type;
 
     if (!r->b || r->b->ref == LUA_NOREF)
-        return 0;
+        return LUA_TNIL;
     lua_rawgeti(r->c->lua, LUA_REGISTRYINDEX, r->b->ref);
     lua_pushstring(r->c->lua, key);
-    there = lua_rawget(r->c->lua, -2) != LUA_TNIL;
+    type = lua_rawget(r->c->lua, -2);
     lua_pop(r->c->lua, 2);
-    return there;
+    return type;
+}
+
+int reader_has(const reader *r, const char *key)
+{
+    return reader_type(r, key) != LUA_TNIL;
 }
 
 /* Notes the key as valid; pushes its value if it is there. */
@@ -55,6 +60,23 @@ static int ask(reader *r, const char *key, const char *doc)
     return 1;
 }
 
+int reader_asked(const reader *r, const char *key)
+{
+    for (int i = 0; i < r->n_key; i++)
+        if (strcmp(r->key[i], key) == 0)
+            return 1;
+    return 0;
+}
+
+int reader_note(reader *r, const char *key, const char *doc)
+{
+    int there = ask(r, key, doc);
+
+    if (there)
+        lua_pop(r->c->lua, 1);
+    return there;
+}
+
 static int mismatch(reader *r, const char *key, const char *doc, const char *expected)
 {
     lua_State *l = r->c->lua;
@@ -66,6 +88,22 @@ static int mismatch(reader *r, const char *key, const char *doc, const char *exp
                lua_type(l, -1) == LUA_TSTRING ? "\"" : "");
     lua_pop(l, 1);
     return -1;
+}
+
+/* What a number must be, if it is none of low..high. */
+static void wrong_number(reader *r, const char *key, const char *doc, double low, double high, double x)
+{
+    char must[100];
+
+    if (!isfinite(x))
+        snprintf(must, sizeof must, "be a finite number");
+    else if (high >= 1e29 && low == 0)
+        snprintf(must, sizeof must, "not be negative");
+    else if (high >= 1e29 && low > 0 && low < 1e-200)
+        snprintf(must, sizeof must, "be positive");
+    else
+        snprintf(must, sizeof must, "lie between %g and %g", low, high);
+    case_wrong(r->c, r->b, key, "%s: \"%s\" (%s) is %g; it must %s", r->what, key, doc, x, must);
 }
 
 int reader_number(reader *r, const char *key, const char *doc, double low, double high, double *v)
@@ -80,8 +118,7 @@ int reader_number(reader *r, const char *key, const char *doc, double low, doubl
     x = lua_tonumber(l, -1);
     lua_pop(l, 1);
     if (!isfinite(x) || (low < high && (x < low || x > high))) {
-        case_wrong(r->c, r->b, key, "%s: \"%s\" (%s) is %g; it must lie between %g and %g", r->what, key, doc, x,
-                   low, high);
+        wrong_number(r, key, doc, low, high, x);
         return -1;
     }
     *v = x;
@@ -172,7 +209,12 @@ int reader_vector(reader *r, const char *key, const char *doc, int n, double *v)
     }
     for (int i = 0; i < n; i++) {
         lua_rawgeti(l, -1, i + 1);
-        if (lua_type(l, -1) != LUA_TNUMBER || !isfinite(lua_tonumber(l, -1))) {
+        if (lua_type(l, -1) == LUA_TNUMBER && !isfinite(lua_tonumber(l, -1))) {
+            wrong_number(r, key, doc, 0, 0, lua_tonumber(l, -1));
+            lua_pop(l, 2);
+            return -1;
+        }
+        if (lua_type(l, -1) != LUA_TNUMBER) {
             int status = mismatch(r, key, doc, "numbers");
 
             lua_pop(l, 1);
@@ -239,9 +281,21 @@ int reader_table(reader *r, const char *key, const char *doc)
     return 1;
 }
 
+/* The key that was meant by another name: what other codes call it, or the one that comes nearest; or NULL. */
+static const char *meant(const char *name, const char *const *valid, int n, const char **note)
+{
+    const char *key = case_alias(name, valid, n, note);
+
+    if (key)
+        return key;
+    *note = NULL;
+    return text_nearest(name, valid, (size_t)n);
+}
+
 int reader_misspelt(const reader *r, const char *key)
 {
     lua_State *l = r->c->lua;
+    const char *note;
     int found = 0;
 
     if (!r->b || r->b->ref == LUA_NOREF)
@@ -253,7 +307,7 @@ int reader_misspelt(const reader *r, const char *key)
         if (lua_type(l, -1) == LUA_TSTRING) {
             const char *other = lua_tostring(l, -1);
 
-            found |= strcmp(other, key) != 0 && text_nearest(other, &key, 1) != NULL;
+            found |= !reader_asked(r, other) && meant(other, &key, 1, &note) != NULL;
         }
     }
     lua_pop(l, 1);
@@ -280,7 +334,7 @@ static int by_name(const void *a, const void *b)
 void reader_close(reader *r)
 {
     lua_State *l = r->c->lua;
-    const char *valid[CASE_MAX_KEYS];
+    const char *valid[CASE_MAX_KEYS], *noun = r->noun ? r->noun : "key", *note;
     text list = {0};
 
     if (!r->b || r->b->ref == LUA_NOREF)
@@ -302,18 +356,18 @@ void reader_close(reader *r)
         if (known)
             continue;
         if (!key) {
-            case_wrong(r->c, r->b, NULL, "%s: a value without a name\n    valid keys: %s", r->what,
+            case_wrong(r->c, r->b, NULL, "%s: a value without a name\n    valid %ss: %s", r->what, noun,
                        list.s ? list.s : "none");
             continue;
         }
-        near = text_nearest(key, r->key, (size_t)r->n_key);
+        near = meant(key, r->key, r->n_key, &note);
         for (int i = 0; near && i < r->n_key; i++)
             doc = r->key[i] == near ? r->doc[i] : doc;
         if (near)
-            case_wrong(r->c, r->b, key, "%s: unknown key \"%s\"; did you mean \"%s\" (%s)?\n    valid keys: %s",
-                       r->what, key, near, doc, list.s);
+            case_wrong(r->c, r->b, key, "%s: unknown %s \"%s\"; did you mean \"%s\" (%s%s%s)?\n    valid %ss: %s",
+                       r->what, noun, key, near, doc, note ? "; " : "", note ? note : "", noun, list.s);
         else
-            case_wrong(r->c, r->b, key, "%s: unknown key \"%s\"\n    valid keys: %s", r->what, key,
+            case_wrong(r->c, r->b, key, "%s: unknown %s \"%s\"\n    valid %ss: %s", r->what, noun, key, noun,
                        list.s ? list.s : "none");
     }
     lua_pop(l, 1);

@@ -5,20 +5,23 @@
 
 #include <string.h>
 
-int describe(description *d, case_file *c, registry *r, error *err)
+int describe(description *d, case_file *c, registry *r, warning_list *w, error *err)
 {
     memset(d, 0, sizeof *d);
     d->c = c;
-    describe_mesh(d);
+    d->warnings = w;
+    TRY(describe_mesh(d, err));
     if (d->dim == 0)
         d->dim = 2; /* the mesh block is wrong and said so; go on to find what else is */
     TRY(describe_terms(d, r, err));
     TRY(describe_boundaries(d, err));
     TRY(describe_bodies(d, err));
     describe_settings(d);
-    describe_output(d);
+    TRY(describe_output(d, err));
+    describe_check_formulation(d);
     describe_check_box(d);
-    return case_finish(c, err);
+    describe_check_terms(d);
+    return 0;
 }
 
 int describe_has(const description *d, int where)
@@ -31,7 +34,6 @@ int describe_has(const description *d, int where)
 
 void describe_destroy(description *d)
 {
-    warning_free(&d->warnings);
     arena_free(&d->memory);
     memset(d, 0, sizeof *d);
 }

@@ -18,8 +18,16 @@ enum {
     DESCRIBE_MAX_LINES = 64,
     DESCRIBE_MAX_PROBES = 64,
     DESCRIBE_MAX_CONTINUED = 16,
-    DESCRIBE_MAX_ITERATIONS = 50
+    DESCRIBE_MAX_ITERATIONS = 50,
+    DESCRIBE_MAX_PLANES = 64
 };
+
+/* A symmetry plane: x_axis = at. */
+typedef struct symmetry_plane {
+    int axis;
+    double at;
+    const char *boundary; /* its name, or "*" */
+} symmetry_plane;
 
 /* mesh{}: a box or a file. */
 typedef struct mesh_spec {
@@ -97,14 +105,16 @@ typedef struct solve_spec {
 } solve_spec;
 
 typedef struct description {
-    case_file *c; /* for messages, and for results{} */
+    case_file *c;           /* for messages, and for results{} */
+    warning_list *warnings; /* what is doubtful but no error   */
     int dim;
     mesh_spec mesh;
     int incomplete; /* some term is unknown: what needs its fields and keys cannot be judged */
     int n_use;
-    term_use use[DESCRIBE_MAX_TERMS]; /* terms that are on */
-    field_list fields;                /* their unknowns    */
-    int n_line;
+    term_use use[DESCRIBE_MAX_TERMS];                /* terms that are on */
+    const case_block *use_block[DESCRIBE_MAX_TERMS]; /* lines that switch them on */
+    field_list fields;                               /* their unknowns    */
+    int n_line, boundary_unread;                     /* some line is so wrong that its boundaries are unknown */
     boundary_line *line;
     int n_body;
     body_spec *body;
@@ -114,30 +124,69 @@ typedef struct description {
     time_spec time;
     output_spec output;
     solve_spec solve;
-    warning_list warnings; /* of what was read; whoever makes a problem of it goes on with the list */
     arena memory;
 } description;
 
-/* Reads all of a case; every mistake is reported at once.  ERR_CASE or ERR_PLUGIN. */
-int describe(description *d, case_file *c, registry *r, error *err);
+/* Reads all of a case.  What is wrong with it is collected (case_finish); an error is of a plugin or of memory. */
+int describe(description *d, case_file *c, registry *r, warning_list *w, error *err);
 /* What can be checked only with the mesh: names of boundaries in boundary{} and output{} (of a box: earlier),
- * facets without a condition.  ERR_CASE. */
+ * facets without a condition, probes and lines.  ERR_CASE. */
 int describe_check(const description *d, const mesh *m, error *err);
 /* facet[n_facet]: 1 where the facet belongs to a boundary line. */
 void describe_facets(const description *d, const mesh *m, int line, uint8_t *facet);
+/* Planes of the boundaries with symmetry = true, each once. */
+int describe_planes(const description *d, const mesh *m, symmetry_plane *plane, int *n, error *err);
+/* Axis along which a facet's normal lies, or -1. */
+int describe_facet_axis(const mesh *m, int64_t f);
+/* Smallest and largest coordinates of the mesh. */
+void describe_bounds(const mesh *m, double *low, double *high);
 void describe_destroy(description *d);
 
 /* Whether a term of the case acts on such points (enum pf_where). */
 int describe_has(const description *d, int where);
+/* Whether the mesh is a box that nothing bends, so that its sides are known before it is made. */
+int describe_is_box(const description *d);
 
 /* --- between the files of this folder: one function a block --- */
 
-void describe_mesh(description *d);
+int describe_mesh(description *d, error *err);
 int describe_terms(description *d, registry *r, error *err);
 int describe_boundaries(description *d, error *err);
 int describe_bodies(description *d, error *err);
 void describe_settings(description *d);
-void describe_output(description *d);
+int describe_output(description *d, error *err);
+/* Numbers that terms need, and fields that nothing determines. */
+void describe_check_terms(const description *d);
+/* Bodies and the terms that move them and couple them with the flow. */
+void describe_check_formulation(const description *d);
 void describe_check_box(const description *d);
+
+/* --- what they share --- */
+
+/* The table on top of the Lua stack as a block of its own, in the line of b; pops it. */
+int describe_inner(description *d, const case_block *b, const char *kind, const case_block **inner, error *err);
+/* As reader_value, where `free` has no meaning. */
+int describe_value(reader *r, const char *key, const char *doc, int n, int dim, value *v);
+/* Finite numbers of the table on top of the stack: how many, or -1 if it is none of at most `most`. */
+int describe_numbers(lua_State *l, double *v, int most);
+/* Two corners of a box; as the readers return.  *dim: 2 or 3 if so many numbers stand there, else 0. */
+int describe_corners(reader *r, const char *key, const char *doc, double *low, double *high, int *dim);
+/* Adds a warning with file and line. */
+void describe_warn(description *d, const case_block *b, const char *key, const char *fmt, ...)
+    __attribute__((format(printf, 4, 5)));
+/* Parameters and data of a term that is on, from its line and from fluid{}. */
+int describe_term_keys(description *d, reader *own, reader *fluid, term_use *u, error *err);
+/* Keys on a line that belong to another term of its plugin, and in fluid{} that belong on a line. */
+void describe_off_keys(description *d, reader *own, const term_plugin *plugin);
+void describe_unshared_keys(description *d, reader *fluid);
+/* Parameter of a term that is on, or NULL. */
+const pf_param *describe_param(const term_use *u, const char *name);
+/* 1 if a term on cells has the field among its unknowns and its test functions (off the diagonal a prescribed value
+ * would take the place of another balance). */
+int describe_field_is_balanced(const description *d, int f);
+/* Everything of a body but its place. */
+int describe_body(description *d, reader *r, body_spec *q, error *err);
+/* The shape that disk{}, sphere{} ... left on top of the Lua stack; pops it. */
+int describe_shape(description *d, const case_block *b, shape *s, error *err);
 
 #endif

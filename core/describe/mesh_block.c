@@ -9,160 +9,179 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Numbers from the table on top of the stack; their count, or -1. */
-static int numbers(lua_State *l, double *v, int most)
+enum { MOST_CELLS = 100000000 }; /* in one direction */
+
+/* One entry of cells that is a number of them. */
+static int read_count(description *d, reader *r, int k)
 {
-    int n = (int)lua_rawlen(l, -1);
+    double x = lua_tonumber(d->c->lua, -1);
 
-    for (int i = 0; i < n; i++) {
-        lua_rawgeti(l, -1, i + 1);
-        if (i >= most || lua_type(l, -1) != LUA_TNUMBER) {
-            lua_pop(l, 1);
-            return -1;
-        }
-        v[i] = lua_tonumber(l, -1);
-        lua_pop(l, 1);
-    }
-    return n;
-}
-
-static int read_corners(description *d, reader *r)
-{
-    lua_State *l = d->c->lua;
-    double *corner[2] = {d->mesh.box.low, d->mesh.box.high};
-    int n[2] = {0, 0};
-
-    if (reader_table(r, "box", "corners {{x, y[, z]}, {x, y[, z]}}") <= 0)
-        return -1;
-    for (int i = 0; i < 2; i++) {
-        lua_rawgeti(l, -1, i + 1);
-        n[i] = lua_istable(l, -1) ? numbers(l, corner[i], 3) : -1;
-        lua_pop(l, 1);
-    }
-    lua_pop(l, 1);
-    if (n[0] != n[1] || (n[0] != 2 && n[0] != 3)) {
-        case_wrong(d->c, r->b, "box",
-                   "mesh: \"box\": expected two corners of 2 or 3 numbers, as in {{0, 0}, {1, 1}}");
+    if (!(x >= 1 && x <= MOST_CELLS && x == floor(x))) {
+        case_wrong(
+            d->c, r->b, "cells",
+            "mesh: \"cells\": entry %d is %g; it must be a whole number of cells, 1 to %g, or the positions of "
+            "grid lines",
+            k + 1, x, (double)MOST_CELLS);
         return -1;
     }
-    d->mesh.box.dim = d->dim = n[0];
-    for (int k = 0; k < n[0]; k++)
-        if (!(d->mesh.box.low[k] < d->mesh.box.high[k])) {
-            case_wrong(d->c, r->b, "box",
-                       "mesh: \"box\": the second corner must lie beyond the first, %g is not > %g",
-                       d->mesh.box.high[k], d->mesh.box.low[k]);
-            return -1;
-        }
+    d->mesh.box.n[k] = (int)x;
     return 0;
 }
 
-/* One entry of cells: a number, or the positions of grid lines. */
-static int read_ticks(description *d, reader *r, int k)
+static int check_ticks(description *d, reader *r, int k, const double *tick, int n)
 {
-    lua_State *l = d->c->lua;
-    int n = lua_istable(l, -1) ? (int)lua_rawlen(l, -1) : 0;
-    double size = d->mesh.box.high[k] - d->mesh.box.low[k], *tick;
+    const double low = d->mesh.box.low[k], high = d->mesh.box.high[k], slack = 1e-9 * (high - low);
 
-    if (lua_isinteger(l, -1) ||
-        (lua_type(l, -1) == LUA_TNUMBER && lua_tonumber(l, -1) == floor(lua_tonumber(l, -1)))) {
-        double x = lua_tonumber(l, -1);
-
-        d->mesh.box.n[k] = x > 1e7 ? 10000000 : (int)x;
-        if (x >= 1)
-            return 0;
-    }
-    if (n < 2 || !(tick = arena_alloc(&d->memory, (size_t)n, sizeof *tick)) || numbers(l, tick, n) != n) {
-        case_wrong(
-            d->c, r->b, "cells",
-            "mesh: \"cells\": entry %d must be a number of cells, at least 1, or the positions of its grid lines "
-            "(graded(a, b, n, ratio) and grid{a, n, b, ...} make such lists)",
-            k + 1);
-        return -1;
-    }
     for (int i = 0; i + 1 < n; i++)
         if (!(tick[i] < tick[i + 1])) {
             case_wrong(d->c, r->b, "cells", "mesh: \"cells\": grid lines of direction %d must ascend: %g, %g",
                        k + 1, tick[i], tick[i + 1]);
             return -1;
         }
-    if (fabs(tick[0] - d->mesh.box.low[k]) > 1e-9 * size || fabs(tick[n - 1] - d->mesh.box.high[k]) > 1e-9 * size) {
+    if (!d->mesh.box.dim) /* the box is wrong */
+        return -1;
+    if (fabs(tick[0] - low) > slack || fabs(tick[n - 1] - high) > slack) {
         case_wrong(d->c, r->b, "cells",
                    "mesh: \"cells\": grid lines of direction %d go from %g to %g, the box from %g to %g", k + 1,
-                   tick[0], tick[n - 1], d->mesh.box.low[k], d->mesh.box.high[k]);
+                   tick[0], tick[n - 1], low, high);
         return -1;
     }
+    return 0;
+}
+
+/* One entry of cells, on top of the Lua stack: a number, or the positions of grid lines. */
+static int read_ticks(description *d, reader *r, int k, error *err)
+{
+    lua_State *l = d->c->lua;
+    lua_Unsigned n = lua_istable(l, -1) ? lua_rawlen(l, -1) : 0;
+    double *tick;
+
+    if (lua_type(l, -1) == LUA_TNUMBER) {
+        read_count(d, r, k);
+        return 0;
+    }
+    if (n < 2 || n > MOST_CELLS) {
+        case_wrong(
+            d->c, r->b, "cells",
+            "mesh: \"cells\": entry %d must be a number of cells, at least 1, or the positions of its grid lines "
+            "(graded(a, b, n, ratio) and grid{a, n, b, ...} make such lists)",
+            k + 1);
+        return 0;
+    }
+    ARENA_NEW(&d->memory, tick, n, err);
+    if (describe_numbers(l, tick, (int)n) < 0) {
+        case_wrong(d->c, r->b, "cells", "mesh: \"cells\": grid lines of direction %d must be finite numbers",
+                   k + 1);
+        return 0;
+    }
+    if (check_ticks(d, r, k, tick, (int)n))
+        return 0;
     tick[0] = d->mesh.box.low[k];
     tick[n - 1] = d->mesh.box.high[k];
-    d->mesh.box.n[k] = n - 1;
+    d->mesh.box.n[k] = (int)n - 1;
     d->mesh.box.ticks[k] = tick;
     return 0;
 }
 
-static void read_box(description *d, reader *r)
+static int read_box(description *d, reader *r, error *err)
 {
     static const char *const shape[] = {"quads", "hexes", "triangles", "tets", NULL};
     lua_State *l = d->c->lua;
     int kind = 0, status;
 
-    if (read_corners(d, r))
-        d->mesh.box.dim = 0;
+    status = describe_corners(r, "box", "corners {{x, y[, z]}, {x, y[, z]}}", d->mesh.box.low, d->mesh.box.high,
+                              &d->dim);
+    d->mesh.box.dim = status > 0 ? d->dim : 0;
     if (reader_choice(r, "shape", "shape of the cells", shape, &kind) > 0 && d->mesh.box.dim &&
         kind % 2 != d->mesh.box.dim - 2)
         case_wrong(d->c, r->b, "shape", "mesh: \"shape\": a box in %dD has %s or %s", d->mesh.box.dim,
                    d->mesh.box.dim == 2 ? "quads" : "hexes", d->mesh.box.dim == 2 ? "triangles" : "tets");
     d->mesh.box.simplex = kind >= 2;
     status = reader_table(r, "cells", "number of cells in each direction");
-    if (!reader_required(r, "cells", status))
-        return;
-    for (int k = 0; k < d->mesh.box.dim; k++) {
-        lua_rawgeti(l, -1, k + 1);
-        read_ticks(d, r, k);
-        lua_pop(l, 1);
+    if (status <= 0) {
+        if (reader_has(r, "box"))
+            reader_required(r, "cells", status);
+        return 0;
     }
-    if (d->mesh.box.dim && (int)lua_rawlen(l, -1) != d->mesh.box.dim)
-        case_wrong(d->c, r->b, "cells", "mesh: \"cells\": %d entries for a box in %dD", (int)lua_rawlen(l, -1),
-                   d->mesh.box.dim);
+    if (d->dim == 0 && (lua_rawlen(l, -1) == 2 || lua_rawlen(l, -1) == 3))
+        d->dim = (int)lua_rawlen(l, -1); /* a guess, to find what else is wrong with the case */
+    if (d->dim && (int)lua_rawlen(l, -1) != d->dim)
+        case_wrong(d->c, r->b, "cells",
+                   "mesh: \"cells\": expected %d entries, one for each direction of the box, got %d", d->dim,
+                   (int)lua_rawlen(l, -1));
+    else
+        for (int k = 0; k < d->dim; k++) {
+            lua_rawgeti(l, -1, k + 1);
+            TRY(read_ticks(d, r, k, err));
+            lua_pop(l, 1);
+        }
     lua_pop(l, 1);
+    return 0;
 }
 
-void describe_mesh(description *d)
+static int read_file(description *d, reader *r, error *err)
+{
+    const char *file = NULL, *slash = strrchr(d->c->path, '/');
+    char path[4096];
+
+    reader_string(r, "file", "mesh file of Gmsh (.msh or .geo), relative to the case", &file);
+    reader_integer(r, "dim", "dimension of the mesh in the file", 2, 3, &d->dim);
+    if (d->dim == 0)
+        d->dim = 2;
+    if (reader_note(r, "box", "corners {{x, y[, z]}, {x, y[, z]}}")) {
+        reader_note(r, "cells", "number of cells in each direction");
+        reader_note(r, "shape", "shape of the cells");
+        case_wrong(d->c, r->b, "box", "mesh: \"box\" and \"file\" are both given; one of the two makes the mesh");
+    }
+    if (!file)
+        return 0;
+    snprintf(path, sizeof path, "%.*s%s", *file == '/' || !slash ? 0 : (int)(slash - d->c->path + 1), d->c->path,
+             file);
+    d->mesh.path = arena_strdup(&d->memory, path);
+    return d->mesh.path ? 0 : error_memory(err, "mesh", 0);
+}
+
+static void read_map(description *d, reader *r)
+{
+    d->mesh.has_map = describe_value(r, "map", "function that moves the nodes, x, y[, z] -> x, y[, z]", d->dim,
+                                     d->dim, &d->mesh.map) > 0;
+    if (d->mesh.has_map && !d->mesh.map.f)
+        case_wrong(
+            d->c, r->b, "map",
+            "mesh: \"map\" must be a function of x, y[, z] that returns where the node goes; constants would "
+            "bring all nodes to one place");
+}
+
+int describe_mesh(description *d, error *err)
 {
     const case_block *b = case_find(d->c, "mesh", 0);
-    const char *file = NULL;
     reader r;
 
     if (!b) {
         case_wrong(d->c, NULL, NULL,
                    "the case has no mesh; add a line like mesh { box = {{0, 0}, {1, 1}}, cells = {32, 32} }");
-        return;
+        return 0;
     }
     d->mesh.block = b;
     reader_open(&r, d->c, b, "mesh");
     if (reader_has(&r, "file")) {
-        reader_string(&r, "file", "mesh file of Gmsh (.msh or .geo), relative to the case", &file);
-        reader_integer(&r, "dim", "dimension of the mesh in the file", 2, 3, &d->dim);
-        if (d->dim == 0)
-            d->dim = 2;
-        if (file) {
-            const char *slash = strrchr(d->c->path, '/');
-            char path[4096];
-
-            snprintf(path, sizeof path, "%.*s%s", *file == '/' || !slash ? 0 : (int)(slash - d->c->path + 1),
-                     d->c->path, file);
-            d->mesh.path = arena_strdup(&d->memory, path);
-        }
-    } else if (reader_has(&r, "box")) {
-        read_box(d, &r);
+        TRY(read_file(d, &r, err));
     } else {
-        case_wrong(d->c, b, NULL,
-                   "mesh: expected box = {{x, y}, {x, y}} with cells = {...}, or file = \"name.msh\"");
+        if (!reader_has(&r, "box") && !reader_misspelt(&r, "box") && !reader_misspelt(&r, "file"))
+            case_wrong(d->c, b, NULL,
+                       "mesh: expected box = {{x, y}, {x, y}} with cells = {...}, or file = \"name.msh\"");
+        reader_note(&r, "file", "mesh file of Gmsh (.msh or .geo), relative to the case");
+        TRY(read_box(d, &r, err));
     }
-    if (d->dim) {
-        int status = reader_value(&r, "map", "function that moves the nodes, x, y[, z] -> x, y[, z]", d->dim,
-                                  d->dim, &d->mesh.map);
+    if (d->dim)
+        read_map(d, &r);
+    else
+        reader_note(&r, "map", "function that moves the nodes");
+    reader_close(&r);
+    return 0;
+}
 
-        d->mesh.has_map = status > 0;
-    }
-    if (d->dim) /* else box was wrong: do not complain about its other keys */
-        reader_close(&r);
+int describe_is_box(const description *d)
+{
+    return d->mesh.box.dim > 0 && !d->mesh.path && !d->mesh.has_map;
 }

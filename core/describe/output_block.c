@@ -9,48 +9,51 @@
 #include <stdio.h>
 #include <string.h>
 
+/* A field that cannot be written, with what can. */
+static void no_field(description *d, reader *r, const char *wrong)
+{
+    const char *name[TERM_MAX_FIELDS], *near;
+    int n = 0, f = fields_find(&d->fields, wrong);
+    text list = {0};
+
+    for (int i = 0; i < d->fields.n; i++)
+        if (d->fields.f[i].support == PF_ON_MESH) {
+            name[n++] = d->fields.f[i].name;
+            text_add(&list, "%s%s (%s)", n > 1 ? ", " : "", d->fields.f[i].name, d->fields.f[i].doc);
+        }
+    near = text_nearest(wrong, name, (size_t)n);
+    if (f >= 0 && d->fields.f[f].support == PF_ON_PARTICLE)
+        case_wrong(
+            d->c, r->b, "fields",
+            "output: fields: \"%s\" (%s) is in particles.csv without being asked for; fields of the mesh: %s",
+            wrong, d->fields.f[f].doc, list.s ? list.s : "none");
+    else if (!d->incomplete)
+        case_wrong(d->c, r->b, "fields", "output: there is no field \"%s\"%s%s%s; there are: %s", wrong,
+                   near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "", list.s ? list.s : "none");
+    text_free(&list);
+}
+
 static void read_fields(description *d, reader *r)
 {
     output_spec *o = &d->output;
-    const char *list[TERM_MAX_FIELDS], *name[TERM_MAX_FIELDS];
+    const char *list[TERM_MAX_FIELDS];
     int n, status = reader_strings(r, "fields", "fields to write", TERM_MAX_FIELDS, list, &n);
 
-    for (int f = 0; f < d->fields.n; f++) {
-        name[f] = d->fields.f[f].name;
-        if (status <= 0 && d->fields.f[f].support == PF_ON_MESH)
+    for (int f = 0; status <= 0 && f < d->fields.n; f++)
+        if (d->fields.f[f].support == PF_ON_MESH)
             o->field[o->n_field++] = f;
-    }
     for (int i = 0; status > 0 && i < n; i++) {
-        int f = fields_find(&d->fields, list[i]);
-        const char *near = text_nearest(list[i], name, (size_t)d->fields.n);
+        int f = fields_find(&d->fields, list[i]), twice = 0;
 
-        if (f >= 0 && d->fields.f[f].support == PF_ON_MESH)
+        for (int k = 0; k < i; k++)
+            twice |= strcmp(list[k], list[i]) == 0;
+        if (twice)
+            case_wrong(d->c, r->b, "fields", "output: fields: \"%s\" stands there twice", list[i]);
+        else if (f >= 0 && d->fields.f[f].support == PF_ON_MESH)
             o->field[o->n_field++] = f;
         else
-            case_wrong(d->c, r->b, "fields", "output: there is no field \"%s\"%s%s%s", list[i],
-                       near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "");
+            no_field(d, r, list[i]);
     }
-}
-
-/* Reads n numbers under `key` of the table on top of the stack. */
-static int point(description *d, const char *key, double *x)
-{
-    lua_State *l = d->c->lua;
-    int ok;
-
-    if (key)
-        lua_getfield(l, -1, key);
-    else
-        lua_pushvalue(l, -1);
-    ok = lua_istable(l, -1) && (int)lua_rawlen(l, -1) == d->dim;
-    for (int k = 0; ok && k < d->dim; k++) {
-        lua_rawgeti(l, -1, k + 1);
-        ok = lua_type(l, -1) == LUA_TNUMBER;
-        x[k] = lua_tonumber(l, -1);
-        lua_pop(l, 1);
-    }
-    lua_pop(l, 1);
-    return ok;
 }
 
 static int is_name(const char *s)
@@ -59,17 +62,25 @@ static int is_name(const char *s)
            strlen(s) < 40;
 }
 
-static int proper_name(description *d, reader *r, const char *key, const char **name, int n, int most)
+/* Name of the entry whose key and value are on top of the Lua stack; *name = NULL if it has none of its own. */
+static int proper_name(description *d, reader *r, const char *key, const char **name, int n, error *err)
 {
     lua_State *l = d->c->lua;
 
-    if (lua_type(l, -2) != LUA_TSTRING || !is_name(lua_tostring(l, -2)) || n == most) {
+    *name = NULL;
+    if (lua_type(l, -2) != LUA_TSTRING || !is_name(lua_tostring(l, -2))) {
         case_wrong(d->c, r->b, key,
-                   "output: %s: every entry needs a name of its own (letters, digits, _), at most %d", key, most);
+                   "output: %s: every entry needs a name of its own (letters, digits, _), as in %s = "
+                   "{ wake = {...} }",
+                   key, key);
+        return 0;
+    }
+    if (n == DESCRIBE_MAX_PROBES) {
+        case_wrong(d->c, r->b, key, "output: %s: more than %d entries", key, DESCRIBE_MAX_PROBES);
         return 0;
     }
     *name = arena_strdup(&d->memory, lua_tostring(l, -2));
-    return *name != NULL;
+    return *name ? 0 : error_memory(err, "output", 0);
 }
 
 /* Tables of Lua have no order: sort by name, so that columns come in the same order in every run. */
@@ -82,57 +93,85 @@ static int proper_name(description *d, reader *r, const char *key, const char **
             (list)[k_ - 1] = swap_;                                                                                \
         }
 
-static void read_probes(description *d, reader *r)
+static int read_probes(description *d, reader *r, error *err)
 {
     output_spec *o = &d->output;
     lua_State *l = d->c->lua;
 
-    if (reader_table(r, "probes", "points: name = {x, y[, z]}") > 0) {
-        lua_pushnil(l);
-        while (lua_next(l, -2)) {
-            probe_spec *q = &o->probe[o->n_probe];
+    if (reader_table(r, "probes", "points: name = {x, y[, z]}") <= 0)
+        return 0;
+    lua_pushnil(l);
+    while (lua_next(l, -2)) {
+        probe_spec q = {0};
 
-            if (proper_name(d, r, "probes", &q->name, o->n_probe, DESCRIBE_MAX_PROBES)) {
-                if (point(d, NULL, q->x))
-                    o->n_probe++;
-                else
-                    case_wrong(d->c, r->b, "probes", "output: probe \"%s\" needs %d coordinates in braces", q->name,
-                               d->dim);
-            }
-            lua_pop(l, 1);
-        }
+        TRY(proper_name(d, r, "probes", &q.name, o->n_probe, err));
+        if (q.name && describe_numbers(l, q.x, 3) != d->dim)
+            case_wrong(d->c, r->b, q.name, "output: probe \"%s\" needs %d coordinates in braces", q.name, d->dim);
+        else if (q.name)
+            o->probe[o->n_probe++] = q;
         lua_pop(l, 1);
-        SORT_BY_NAME(o->probe, o->n_probe)
     }
-    if (reader_table(r, "lines", "lines: name = { from = {...}, to = {...}, points = n }") > 0) {
-        lua_pushnil(l);
-        while (lua_next(l, -2)) {
-            line_spec *q = &o->line[o->n_line];
-
-            if (proper_name(d, r, "lines", &q->name, o->n_line, DESCRIBE_MAX_PROBES)) {
-                int ok = lua_istable(l, -1) && point(d, "from", q->from) && point(d, "to", q->to);
-
-                q->n = 101;
-                if (ok && lua_getfield(l, -1, "points") == LUA_TNUMBER)
-                    q->n = (int)lua_tonumber(l, -1);
-                if (ok)
-                    lua_pop(l, 1);
-                if (ok && q->n >= 2 && q->n <= 10000000)
-                    o->n_line++;
-                else
-                    case_wrong(
-                        d->c, r->b, "lines",
-                        "output: line \"%s\" needs from and to (%d coordinates each), and points of 2 or more",
-                        q->name, d->dim);
-            }
-            lua_pop(l, 1);
-        }
-        lua_pop(l, 1);
-        SORT_BY_NAME(o->line, o->n_line)
-    }
+    lua_pop(l, 1);
+    SORT_BY_NAME(o->probe, o->n_probe)
+    return 0;
 }
 
-void describe_output(description *d)
+/* name = { from = {...}, to = {...}, points = n }, on top of the Lua stack (and left there). */
+static int read_line(description *d, const case_block *b, line_spec *q, int *ok, error *err)
+{
+    const int before = d->c->n_wrong;
+    const case_block *inner;
+    char *what;
+    int from, to;
+    reader r;
+
+    *ok = 0;
+    q->n = 101;
+    if (!lua_istable(d->c->lua, -1)) {
+        case_wrong(d->c, b, q->name, "output: line \"%s\": expected { from = {...}, to = {...}, points = n }",
+                   q->name);
+        return 0;
+    }
+    ARENA_NEW(&d->memory, what, strlen(q->name) + 20, err);
+    sprintf(what, "output: line \"%s\"", q->name);
+    lua_pushvalue(d->c->lua, -1);
+    TRY(describe_inner(d, b, "output", &inner, err));
+    reader_open(&r, d->c, inner, what);
+    from = reader_vector(&r, "from", "where it begins, m", d->dim, q->from);
+    to = reader_vector(&r, "to", "where it ends, m", d->dim, q->to);
+    reader_integer(&r, "points", "how many values", 2, 10000000, &q->n);
+    reader_required(&r, "from", from);
+    reader_required(&r, "to", to);
+    reader_close(&r);
+    *ok = d->c->n_wrong == before;
+    return 0;
+}
+
+static int read_lines(description *d, reader *r, error *err)
+{
+    output_spec *o = &d->output;
+    lua_State *l = d->c->lua;
+
+    if (reader_table(r, "lines", "lines: name = { from = {...}, to = {...}, points = n }") <= 0)
+        return 0;
+    lua_pushnil(l);
+    while (lua_next(l, -2)) {
+        line_spec q = {0};
+        int ok = 0;
+
+        TRY(proper_name(d, r, "lines", &q.name, o->n_line, err));
+        if (q.name)
+            TRY(read_line(d, r->b, &q, &ok, err));
+        if (ok)
+            o->line[o->n_line++] = q;
+        lua_pop(l, 1);
+    }
+    lua_pop(l, 1);
+    SORT_BY_NAME(o->line, o->n_line)
+    return 0;
+}
+
+int describe_output(description *d, error *err)
 {
     output_spec *o = &d->output;
     int n = 0;
@@ -145,7 +184,8 @@ void describe_output(description *d)
         o->every = d->time.step * fmax(1, ceil((d->time.stop - d->time.start) / d->time.step / 20 - 1e-9));
     reader_number(&r, "every", "time between two files of fields, s", 1e-300, 1e300, &o->every);
     read_fields(d, &r);
-    read_probes(d, &r);
+    TRY(read_probes(d, &r, err));
+    TRY(read_lines(d, &r, err));
     reader_strings(&r, "forces", "boundaries whose force (and other reactions) is wanted", MESH_MAX_NAMES, o->force,
                    &n);
     for (int i = 0; i < n; i++)
@@ -155,4 +195,5 @@ void describe_output(description *d)
     o->n_force = n;
     reader_vector(&r, "about", "point that torques refer to", d->dim, o->about);
     reader_close(&r);
+    return 0;
 }

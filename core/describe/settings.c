@@ -3,24 +3,52 @@
  * time{}, solve{}, initial{}, exact{} and offset{} of a case. */
 #include "describe/describe.h"
 
-#include <lauxlib.h>
-
-#include <math.h>
-#include <stdio.h>
 #include <string.h>
+
+/* A field that lives on bodies: they say themselves how they start. */
+static void refuse_of_bodies(description *d, reader *r, const field_spec *f)
+{
+    if (!reader_note(r, f->name, f->doc))
+        return;
+    if (strcmp(r->what, "initial") == 0)
+        case_wrong(d->c, r->b, f->name,
+                   "initial: \"%s\" (%s) is of the bodies, each of which has its own: particle { %s = ... }",
+                   f->name, f->doc, f->shape == PF_SPIN ? "spin" : "velocity");
+    else
+        case_wrong(d->c, r->b, f->name,
+                   "%s: \"%s\" (%s) is of the bodies; here only fields of the mesh have a meaning", r->what,
+                   f->name, f->doc);
+}
 
 static void read_fields(description *d, const char *kind, value *v, int *has)
 {
     reader r;
 
     reader_open(&r, d->c, case_find(d->c, kind, 0), kind);
-    for (int f = 0; f < d->fields.n; f++) {
-        const field_spec *g = &d->fields.f[f];
-
-        has[f] = reader_value(&r, g->name, g->doc, g->n_comp, d->dim, &v[f]) > 0;
-    }
+    r.noun = "field";
+    for (int f = 0; f < d->fields.n; f++)
+        if (d->fields.f[f].support != PF_ON_PARTICLE)
+            has[f] = describe_value(&r, d->fields.f[f].name, d->fields.f[f].doc, d->fields.f[f].n_comp, d->dim,
+                                    &v[f]) > 0;
+    for (int f = 0; f < d->fields.n; f++)
+        if (d->fields.f[f].support == PF_ON_PARTICLE && reader_has(&r, d->fields.f[f].name))
+            refuse_of_bodies(d, &r, &d->fields.f[f]);
     if (!d->incomplete)
         reader_close(&r);
+}
+
+static void check_time(description *d, const case_block *b, const time_spec *t)
+{
+    const double length = t->stop - t->start;
+
+    if (!(length > 0))
+        case_wrong(d->c, b, "stop", "time: stop = %g is not after start = %g", t->stop, t->start);
+    else if (t->step > length * (1 + 1e-9))
+        case_wrong(d->c, b, "step", "time: step = %g is longer than the whole run, from start = %g to stop = %g",
+                   t->step, t->start, t->stop);
+    else if (length / t->step > 1e9)
+        case_wrong(d->c, b, "step", "time: %.3g steps are too many; is the step (%g) right?", length / t->step,
+                   t->step);
 }
 
 static void read_time(description *d)
@@ -28,7 +56,7 @@ static void read_time(description *d)
     static const char *const scheme[] = {"bdf1", "bdf2", NULL};
     const case_block *b = case_find(d->c, "time", 0);
     time_spec *t = &d->time;
-    int order = 1;
+    int order = 1, step, stop, start;
     reader r;
 
     if (!b)
@@ -37,56 +65,61 @@ static void read_time(description *d)
     reader_open(&r, d->c, b, "time");
     reader_choice(&r, "scheme", "time scheme", scheme, &order);
     t->order = order + 1;
-    reader_required(&r, "step", reader_number(&r, "step", "length of a time step, s", 1e-300, 1e300, &t->step));
-    reader_required(&r, "stop",
-                    reader_number(&r, "stop", "time at which the run ends, s", -1e300, 1e300, &t->stop));
-    reader_number(&r, "start", "time at which the run starts, s", -1e300, 1e300, &t->start);
+    step = reader_number(&r, "step", "length of a time step, s", 1e-300, 1e300, &t->step);
+    stop = reader_number(&r, "stop", "time at which the run ends, s", -1e300, 1e300, &t->stop);
+    start = reader_number(&r, "start", "time at which the run starts, s", -1e300, 1e300, &t->start);
     reader_integer(&r, "geometry_iterations",
                    "how often bodies are placed anew within a step, with the motion found", 0, 20,
                    &t->geometry_iterations);
+    reader_required(&r, "step", step);
+    reader_required(&r, "stop", stop);
     reader_close(&r);
-    if (t->step > 0 && t->stop <= t->start)
+    if (step > 0 && stop > 0 && start >= 0)
+        check_time(d, b, t);
+    else if (stop > 0 && start >= 0 && t->stop <= t->start)
         case_wrong(d->c, b, "stop", "time: stop = %g is not after start = %g", t->stop, t->start);
-    if (t->step > 0 && (t->stop - t->start) / t->step > 1e9)
-        case_wrong(d->c, b, "step", "time: %.3g steps are too many; is the step (%g) right?",
-                   (t->stop - t->start) / t->step, t->step);
+}
+
+/* The parameters of all terms by this name start at `from`. */
+static void continue_in(description *d, const case_block *b, const char *name, double from)
+{
+    solve_spec *c = &d->solve;
+    int found = 0;
+
+    for (int i = 0; i < d->n_use; i++) {
+        const pf_param *q = describe_param(&d->use[i], name);
+        double *at = q ? (double *)(void *)((char *)d->use[i].params + q->offset) : NULL;
+
+        if (!q || q->type != PF_T_REAL || c->n_continued == DESCRIBE_MAX_CONTINUED)
+            continue;
+        found = 1;
+        c->continued[c->n_continued] = at;
+        c->from[c->n_continued] = from;
+        c->to[c->n_continued++] = *at;
+        if (!(from * *at > 0))
+            case_wrong(d->c, b, "continuation",
+                       "solve: continuation in \"%s\" goes from %g to %g; both must be of one sign and not zero",
+                       name, from, *at);
+    }
+    if (!found && !d->incomplete)
+        case_wrong(d->c, b, "continuation", "solve: no term has a number called \"%s\" to continue in", name);
 }
 
 /* solve { continuation = { viscosity = 0.1 } }: the parameter starts there. */
 static void read_continuation(description *d, reader *r)
 {
     lua_State *l = d->c->lua;
-    solve_spec *c = &d->solve;
 
     if (reader_table(r, "continuation", "parameters of terms and where they start: { viscosity = 0.1 }") <= 0)
         return;
     lua_pushnil(l);
     while (lua_next(l, -2)) {
-        const char *name = lua_type(l, -2) == LUA_TSTRING ? lua_tostring(l, -2) : "";
-        double from = lua_tonumber(l, -1);
-        int found = 0;
-
+        if (lua_type(l, -2) == LUA_TSTRING && lua_type(l, -1) == LUA_TNUMBER)
+            continue_in(d, r->b, lua_tostring(l, -2), lua_tonumber(l, -1));
+        else
+            case_wrong(d->c, r->b, "continuation",
+                       "solve: continuation: expected parameters and where they start, as in { viscosity = 0.1 }");
         lua_pop(l, 1);
-        for (int i = 0; i < d->n_use; i++)
-            for (uint32_t k = 0; k < d->use[i].term->n_param; k++) {
-                const pf_param *q = &d->use[i].term->param[k];
-                double *at = (double *)(void *)((char *)d->use[i].params + q->offset);
-
-                if (strcmp(q->name, name) != 0 || q->type != PF_T_REAL || c->n_continued == DESCRIBE_MAX_CONTINUED)
-                    continue;
-                found = 1;
-                c->continued[c->n_continued] = at;
-                c->from[c->n_continued] = from;
-                c->to[c->n_continued++] = *at;
-                if (!(from * *at > 0))
-                    case_wrong(
-                        d->c, r->b, "continuation",
-                        "solve: continuation in \"%s\" goes from %g to %g; both must be of one sign and not zero",
-                        name, from, *at);
-            }
-        if (!found)
-            case_wrong(d->c, r->b, "continuation", "solve: no term has a number called \"%s\" to continue in",
-                       name);
     }
     lua_pop(l, 1);
 }

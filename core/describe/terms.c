@@ -4,90 +4,10 @@
  * fields that they need. */
 #include "describe/describe.h"
 
-#include <lauxlib.h>
-
 #include <stdio.h>
 #include <string.h>
 
 static const char *const derivative_name[] = {"auto", "analytic", "complex", "fd", NULL};
-
-/* One parameter from a reader into the term's struct; as the readers return. */
-static int read_param(reader *r, const pf_param *q, int dim, void *params)
-{
-    char *at = (char *)params + q->offset,
-         *doc = arena_alloc(&r->c->memory, strlen(q->doc) + strlen(q->unit) + 4, 1);
-    double v[3] = {0};
-    int n = 0, status;
-
-    if (!doc)
-        return -1;
-    sprintf(doc, "%s%s%s", q->doc, strcmp(q->unit, "1") ? ", " : "", strcmp(q->unit, "1") ? q->unit : "");
-    switch (q->type) {
-    case PF_T_REAL:
-        status = reader_number(r, q->name, doc, q->min, q->max, v);
-        if (status > 0)
-            memcpy(at, v, sizeof *v);
-        return status;
-    case PF_T_VECTOR:
-        status = reader_vector(r, q->name, doc, dim, v);
-        if (status > 0)
-            memcpy(at, v, sizeof v);
-        return status;
-    case PF_T_INT:
-        status = reader_integer(r, q->name, doc, q->min < q->max ? (int)q->min : -1000000000,
-                                q->min < q->max ? (int)q->max : 1000000000, &n);
-        break;
-    case PF_T_BOOL:
-        status = reader_bool(r, q->name, doc, &n);
-        break;
-    default:
-        status = reader_choice(r, q->name, doc, q->choice, &n);
-    }
-    if (status > 0)
-        memcpy(at, &n, sizeof n);
-    return status;
-}
-
-static void read_params(description *d, reader *own, reader *fluid, term_use *u)
-{
-    for (uint32_t i = 0; i < u->term->n_param; i++) {
-        const pf_param *q = &u->term->param[i];
-        int status = 0;
-
-        if (q->flags & PF_SHARED)
-            status = read_param(fluid, q, d->dim, u->params);
-        if (reader_has(own, q->name) || !status) /* the term's own line has the last word */
-            status = read_param(own, q, d->dim, u->params);
-        if (status == 0 && (q->flags & PF_REQUIRED)) {
-            if ((q->flags & PF_SHARED) && (reader_misspelt(fluid, q->name) || reader_misspelt(own, q->name)))
-                continue;
-            if (q->flags & PF_SHARED)
-                case_wrong(d->c, fluid->b ? fluid->b : own->b, NULL,
-                           "%s needs \"%s\" (%s, %s): give it in fluid { %s = ... }", own->what, q->name, q->doc,
-                           q->unit, q->name);
-            else
-                reader_required(own, q->name, status);
-        }
-    }
-}
-
-/* PF_DATA slots of terms on cells: keys of the term's line. */
-static void read_data(description *d, reader *own, term_use *u)
-{
-    for (uint32_t k = 0; k < u->term->n_in; k++) {
-        const pf_slot *s = &u->term->in[k];
-        value *v;
-
-        if (s->eval != PF_DATA || (u->term->flags & PF_BY_BOUNDARY))
-            continue;
-        v = arena_alloc(&d->memory, 1, sizeof *v);
-        if (!v)
-            return;
-        v->n = term_components(s->shape, d->dim);
-        reader_value(own, s->name, "a value or a function of position and time", v->n, d->dim, v);
-        u->data[k] = v;
-    }
-}
 
 static int is_listed(const char *name, const char *const *list, int n)
 {
@@ -97,37 +17,50 @@ static int is_listed(const char *name, const char *const *list, int n)
     return 0;
 }
 
-static int add_use(description *d, const term_plugin *plugin, const pf_term *t, error *err)
+static int add_use(description *d, const case_block *b, const term_plugin *plugin, const pf_term *t, error *err)
 {
     term_use *u = &d->use[d->n_use];
 
     if (d->n_use == DESCRIBE_MAX_TERMS)
-        return error_set(err, ERR_CASE, "%s: more than %d terms", d->c->path, DESCRIBE_MAX_TERMS);
+        return error_set(err, ERR_CASE, "%s:%d: more than %d terms", b->file, b->line, DESCRIBE_MAX_TERMS);
     *u = (term_use){.plugin = plugin, .term = t, .where = (int)t->where};
     u->params = arena_alloc(&d->memory, t->params_bytes ? t->params_bytes : 1, 1);
     if (!u->params)
         return error_memory(err, "parameters", t->params_bytes);
     term_defaults(t, u->params);
-    d->n_use++;
+    d->use_block[d->n_use++] = b;
     return 0;
 }
 
-/* Checks the names in without = {...} or only = {...}. */
-static void check_names(description *d, reader *r, const char *key, const term_plugin *plugin,
-                        const char *const *list, int n)
+/* A name that is none of the plugin's terms. */
+static void no_such_term(description *d, const case_block *b, const char *key, const char *what,
+                         const term_plugin *plugin, const char *wrong)
 {
-    const char *name[64];
-    uint32_t m = 0;
+    const char *name[64], *near;
+    text list = {0};
+    uint32_t n = 0;
 
-    for (; m < plugin->d.n_term && m < 64; m++)
-        name[m] = plugin->term[m].name;
-    for (int i = 0; i < n; i++)
-        if (!is_listed(list[i], name, (int)m)) {
-            const char *near = text_nearest(list[i], name, m);
+    for (; n < plugin->d.n_term && n < 64; n++) {
+        name[n] = plugin->term[n].name;
+        text_add(&list, "%s%s", n ? ", " : "", name[n]);
+    }
+    near = text_nearest(wrong, name, n);
+    case_wrong(d->c, b, key, "%s: plugin \"%s\" has no term \"%s\"%s%s%s\n    its terms: %s", what, plugin->d.name,
+               wrong, near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "", list.s ? list.s : "");
+    text_free(&list);
+}
 
-            case_wrong(d->c, r->b, key, "%s: %s: there is no integrator \"%s\"%s%s%s", r->what, key, list[i],
-                       near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "");
-        }
+/* Names in without = {...}. */
+static void check_names(description *d, reader *r, const term_plugin *plugin, const char *const *list, int n)
+{
+    for (int i = 0; i < n; i++) {
+        int found = 0;
+
+        for (uint32_t k = 0; k < plugin->d.n_term; k++)
+            found |= strcmp(plugin->term[k].name, list[i]) == 0;
+        if (!found)
+            no_such_term(d, r->b, "without", r->what, plugin, list[i]);
+    }
 }
 
 /* The plugin of a term line.  A name that no plugin has is a mistake of the case like any other: it is reported,
@@ -156,79 +89,147 @@ static int find_plugin(description *d, registry *r, const case_block *b, char *n
     return 0;
 }
 
-/* Terms from number `first` on that an earlier line has switched on. */
-static void check_twice(const description *d, const case_block *b, const char *what, const char *plugin, int first)
+/* How a line uses the terms that it switches on. */
+typedef struct line_options {
+    const char *without[32];
+    int n_without;
+    int how, over; /* enum term_derivative; 1: in the fluid only */
+} line_options;
+
+static void read_options(description *d, reader *own, const term_plugin *plugin, int single, line_options *o)
 {
+    static const char *const over_name[] = {"all", "fluid", NULL};
+
+    if (!single && reader_strings(own, "without", "terms to leave out", 32, o->without, &o->n_without) > 0)
+        check_names(d, own, plugin, o->without, o->n_without);
+    reader_choice(own, "jacobian", "how the derivatives are computed", derivative_name, &o->how);
+    reader_choice(own, "over", "part of the domain: all of it, or outside of the bodies (fluid)", over_name,
+                  &o->over);
+}
+
+/* Switches on the terms of a line: the one that it names, or all but optional ones and those left out. */
+static int switch_on(description *d, reader *own, const term_plugin *plugin, const char *single,
+                     const line_options *o, error *err)
+{
+    int found = 0;
+
+    for (uint32_t i = 0; i < plugin->d.n_term; i++) {
+        const pf_term *t = &plugin->term[i];
+
+        if (single ? strcmp(t->name, single) != 0
+                   : (t->flags & PF_OPTIONAL) || is_listed(t->name, o->without, o->n_without))
+            continue;
+        found = 1;
+        TRY(add_use(d, own->b, plugin, t, err));
+        if (!term_has_derivative(t, (enum term_derivative)o->how))
+            case_wrong(
+                d->c, own->b, "jacobian",
+                "%s: jacobian = \"%s\", but %s.%s has no such derivative; leave the key out (\"auto\" takes the "
+                "best there is)",
+                own->what, derivative_name[o->how], plugin->d.name, t->name);
+        d->use[d->n_use - 1].how = (enum term_derivative)o->how;
+        if (o->over && t->where == PF_CELL)
+            d->use[d->n_use - 1].where = PF_FLUID;
+    }
+    d->incomplete |= !found;
+    if (single && !found)
+        no_such_term(d, own->b, NULL, own->what, plugin, single);
+    else if (!found)
+        case_wrong(d->c, own->b, "without", "%s: no term is left; leave the line out instead", own->what);
+    return 0;
+}
+
+/* What the terms from `first` on say about their parameters, and whether one is on already. */
+static void check_line(description *d, const reader *own, int first)
+{
+    for (int i = first; i < d->n_use; i++) {
+        const term_use *u = &d->use[i];
+        char why[400] = "";
+
+        if (u->term->check && u->term->check(u->params, why, sizeof why))
+            case_wrong(d->c, own->b, NULL, "%s: %s", own->what, why);
+    }
     for (int i = 0; i < first; i++)
         for (int k = first; k < d->n_use; k++)
             if (d->use[i].term == d->use[k].term) {
-                case_wrong(d->c, b, NULL, "%s: %s.%s is on already, by an earlier line", what, plugin,
-                           d->use[k].term->name);
+                case_wrong(d->c, own->b, NULL, "%s: %s.%s is on already, by line %d", own->what,
+                           d->use[k].plugin->d.name, d->use[k].term->name, d->use_block[i]->line);
                 return;
             }
 }
 
 static int read_term(description *d, registry *r, const case_block *b, reader *fluid, int outside, error *err)
 {
-    static const char *const over_name[] = {"all", "fluid", NULL};
     const term_plugin *plugin;
-    const char *dot = strchr(b->name, '.'), *single = dot ? dot + 1 : NULL, *without[32];
-    char name[128], *what = arena_alloc(&d->memory, strlen(b->name) + 10, 1);
-    int n_without, how = 0, over = outside, found = 0, first = d->n_use;
+    const char *dot = strchr(b->name, '.'), *single = dot ? dot + 1 : NULL;
+    char name[128], *what;
+    line_options o = {.over = outside};
+    int first = d->n_use;
     reader own;
 
     snprintf(name, sizeof name, "%.*s", dot ? (int)(dot - b->name) : (int)strlen(b->name), b->name);
     TRY(find_plugin(d, r, b, name, sizeof name, &plugin, err));
     if (!plugin)
         return 0;
-    if (!what)
-        return error_memory(err, "case", 0);
+    ARENA_NEW(&d->memory, what, strlen(b->name) + 10, err);
     sprintf(what, "term \"%s\"", b->name);
     reader_open(&own, d->c, b, what);
-    if (!single && reader_strings(&own, "without", "integrators to leave out", 32, without, &n_without) > 0)
-        check_names(d, &own, "without", plugin, without, n_without);
-    reader_choice(&own, "jacobian", "how the derivatives are computed", derivative_name, &how);
-    reader_choice(&own, "over", "part of the domain: all of it, or outside of the bodies (fluid)", over_name,
-                  &over);
-    for (uint32_t i = 0; i < plugin->d.n_term; i++) {
-        const pf_term *t = &plugin->term[i];
-
-        if (single ? strcmp(t->name, single) != 0
-                   : (t->flags & PF_OPTIONAL) || is_listed(t->name, without, n_without))
-            continue;
-        found = 1;
-        TRY(add_use(d, plugin, t, err));
-        if (!term_has_derivative(t, (enum term_derivative)how))
-            case_wrong(
-                d->c, b, "jacobian",
-                "%s: jacobian = \"%s\", but %s.%s has no such derivative; leave the key out (\"auto\" takes the "
-                "best there is)",
-                what, derivative_name[how], name, t->name);
-        d->use[d->n_use - 1].how = (enum term_derivative)how;
-        if (over && t->where == PF_CELL)
-            d->use[d->n_use - 1].where = PF_FLUID;
-    }
-    if (single && !found)
-        case_wrong(d->c, b, NULL, "%s: plugin \"%s\" has no term \"%s\"; plugflow describe %s lists its terms",
-                   what, name, single, name);
-    for (int i = first; i < d->n_use; i++) {
-        read_params(d, &own, fluid, &d->use[i]);
-        read_data(d, &own, &d->use[i]);
-    }
+    read_options(d, &own, plugin, single != NULL, &o);
+    TRY(switch_on(d, &own, plugin, single, &o, err));
+    for (int i = first; i < d->n_use; i++)
+        TRY(describe_term_keys(d, &own, fluid, &d->use[i], err));
+    describe_off_keys(d, &own, plugin);
     reader_close(&own);
-    for (int i = first; i < d->n_use; i++) {
-        const term_use *u = &d->use[i];
-        char why[400] = "";
-
-        if (u->term->check && u->term->check(u->params, why, sizeof why))
-            case_wrong(d->c, b, NULL, "%s: %s", what, why);
-    }
-    check_twice(d, b, what, name, first);
+    check_line(d, &own, first);
     return 0;
 }
 
+/* Whether a term gives an equation for a field on its usual points, and needs no field that the case lacks. */
+static int gives_equation(const description *d, const pf_term *t, const field_spec *f)
+{
+    int rows = 0;
+
+    for (uint32_t o = 0; o < t->n_out; o++)
+        rows |= strcmp(t->out[o].field, f->name) == 0;
+    for (uint32_t k = 0; k < t->n_in; k++)
+        rows &= t->in[k].eval == PF_DATA || fields_find(&d->fields, t->in[k].field) >= 0;
+    return rows && !(t->flags & PF_OPTIONAL) &&
+           (f->support == PF_ON_MESH ? t->where <= PF_FLUID : t->where != PF_FACET);
+}
+
+/* A plugin of those that can be found which gives an equation for the field, or NULL. */
+static const char *plugin_for(const description *d, registry *r, const field_spec *f)
+{
+    error ignored;
+
+    if (registry_scan(r, &ignored))
+        return NULL;
+    for (int i = 0; i < r->n_file; i++) {
+        const term_plugin *p = &r->file[i].plugin;
+
+        for (uint32_t k = 0; p->term && k < p->d.n_term; k++)
+            if (gives_equation(d, &p->term[k], f))
+                return p->d.name;
+    }
+    return NULL;
+}
+
+static void no_equation(description *d, registry *r, const field_spec *f)
+{
+    const char *plugin = plugin_for(d, r, f);
+    const case_block *b = NULL;
+
+    for (int i = d->n_use - 1; i >= 0; i--)
+        if (strcmp(d->use[i].plugin->d.name, f->declared_by) == 0)
+            b = d->use_block[i];
+    case_wrong(d->c, b, NULL,
+               "field \"%s\" (%s) is used by plugin \"%s\", but no term gives an equation for it; %s%s%s", f->name,
+               f->doc, f->declared_by, plugin ? "term \"" : "switch one on", plugin ? plugin : "",
+               plugin ? "\" {} does" : "");
+}
+
 /* Fields of the slots in use; every one needs an equation. */
-static int collect_fields(description *d, error *err)
+static int collect_fields(description *d, registry *r, error *err)
 {
     int has_rows[TERM_MAX_FIELDS] = {0};
 
@@ -247,12 +248,13 @@ static int collect_fields(description *d, error *err)
             has_rows[f] |= k >= t->n_in && t->where != PF_FACET;
         }
     }
-    for (int f = 0; f < d->fields.n && !d->incomplete; f++)
-        if (!has_rows[f])
-            case_wrong(
-                d->c, NULL, NULL,
-                "field \"%s\" (%s) is used by plugin \"%s\", but no term gives an equation for it; switch one on",
-                d->fields.f[f].name, d->fields.f[f].doc, d->fields.f[f].declared_by);
+    if (d->incomplete)
+        return 0;
+    for (int f = 0; f < d->fields.n; f++)
+        if (!has_rows[f]) {
+            no_equation(d, r, &d->fields.f[f]);
+            d->incomplete = 1;
+        }
     return 0;
 }
 
@@ -274,11 +276,14 @@ int describe_terms(description *d, registry *r, error *err)
     for (int k = 0; (b = case_find(d->c, "term", k)); k++) {
         if (!b->name) {
             case_wrong(d->c, b, NULL, "term: expected a name in quotes, as in term \"momentum\" {}");
+            d->incomplete = 1;
             continue;
         }
         TRY(read_term(d, r, b, &fluid, outside, err));
     }
+    describe_unshared_keys(d, &fluid);
+    TRY(collect_fields(d, r, err));
     if (!d->incomplete)
         reader_close(&fluid);
-    return collect_fields(d, err);
+    return 0;
 }

@@ -17,8 +17,7 @@ static int read_file(const description *d, registry *r, mesh *m, error *err)
     int status;
 
     if (access(d->mesh.path, R_OK) != 0)
-        return error_set(err, ERR_MESH, "%s:%d: mesh file %s is not there or cannot be read", d->mesh.block->file,
-                         d->mesh.block->line, d->mesh.path);
+        return error_set(err, ERR_MESH, "mesh file %s is not there or cannot be read", d->mesh.path);
     status = registry_mesh_reader(r, "mesh_gmsh", &reader_plugin, err);
     if (status) {
         error_prefix(err,
@@ -58,7 +57,7 @@ static int check_size(const description *d, error *err)
         cells, bytes / 1e9, memory / 1e9, cells * memory / bytes);
 }
 
-int problem_make_mesh(const description *d, registry *r, mesh *m, error *err)
+static int make_mesh(const description *d, registry *r, mesh *m, error *err)
 {
     if (d->mesh.path) {
         TRY(read_file(d, r, m, err));
@@ -74,4 +73,13 @@ int problem_make_mesh(const description *d, registry *r, mesh *m, error *err)
         memcpy(m->x + i * d->dim, y, (size_t)d->dim * sizeof *x);
     }
     return mesh_measure(m, err);
+}
+
+int problem_make_mesh(const description *d, registry *r, mesh *m, error *err)
+{
+    int status = make_mesh(d, r, m, err);
+
+    if (status == ERR_MESH || status == ERR_MEMORY) /* others name the line themselves */
+        error_prefix(err, "%s:%d: ", d->mesh.block->file, d->mesh.block->line);
+    return status;
 }

@@ -11,22 +11,44 @@
  * the square root of its share of all cells. */
 #define CUT_CLOSURE 3e-4
 
-static int make_periodic(problem *p, error *err)
+static int make_periodic(const description *d, mesh *m, error *err)
 {
-    const description *d = &p->description;
-
     for (int i = 0; i < d->n_line; i++) {
-        const char *const *name = d->line[i].periodic;
-        int a, b;
+        const boundary_line *l = &d->line[i];
+        int a = l->periodic[0] ? mesh_find_name(m, l->periodic[0]) : -1;
+        int b = l->periodic[1] ? mesh_find_name(m, l->periodic[1]) : -1;
+        int status = a >= 0 && b >= 0 ? mesh_make_periodic(m, a, b, err) : 0;
 
-        if (!name[0])
-            continue;
-        a = mesh_find_name(&p->mesh, name[0]);
-        b = mesh_find_name(&p->mesh, name[1]);
-        if (a >= 0 && b >= 0)
-            TRY(mesh_make_periodic(&p->mesh, a, b, err));
+        if (status) {
+            error_prefix(err, "%s:%d: ", l->block->file, l->block->line);
+            return status;
+        }
     }
     return 0;
+}
+
+/* Where bodies start can be judged before there is a mesh if it is a plain box: on one cell. */
+static int check_places_in_box(const description *d, error *err)
+{
+    mesh_box box = d->mesh.box;
+    mesh m = {0};
+    error ignored;
+    int status;
+
+    if (!describe_is_box(d) || d->n_body == 0)
+        return 0;
+    box.simplex = 0;
+    for (int k = 0; k < 3; k++) {
+        box.n[k] = 1;
+        box.ticks[k] = NULL;
+    }
+    status = mesh_create_box(&box, &m, err);
+    if (!status)
+        status = mesh_measure(&m, err);
+    if (!status && !make_periodic(d, &m, &ignored)) /* else the mesh itself will say so */
+        status = bodies_check_places(d, &m, err);
+    mesh_destroy(&m);
+    return status;
 }
 
 /* What a steady case may be continued in. */
@@ -100,16 +122,21 @@ int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *e
 
     memset(p, 0, sizeof *p);
     p->n_thread = n_thread;
-    TRY(describe(d, c, r, err));
-    p->warnings = d->warnings;
-    d->warnings = (warning_list){0};
+    TRY(describe(d, c, r, &p->warnings, err));
+    TRY(check_places_in_box(d, err));
+    TRY(case_finish(c, err));
     TRY(problem_make_mesh(d, r, &p->mesh, err));
     p->mesh_seconds = clock_seconds() - start;
     TRY(describe_check(d, &p->mesh, err));
-    TRY(make_periodic(p, err));
+    TRY(make_periodic(d, &p->mesh, err));
     TRY(cell_grid_create(&p->grid, &p->mesh, err));
+    if (!describe_is_box(d)) {
+        TRY(bodies_check_places(d, &p->mesh, err));
+        TRY(case_finish(c, err));
+    }
     TRY(space_number(&p->space, &d->fields, &p->mesh, d->n_body, err));
     TRY(conditions_create(&p->conditions, d, &p->space, &p->warnings, err));
+    TRY(problem_check_resolution(p, err));
     TRY(bodies_create(&p->bodies, d, &p->space, &p->grid, &p->conditions, &p->warnings, err));
     TRY(space_constrain(&p->space, err));
     TRY(make_system(p, r, err));

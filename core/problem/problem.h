@@ -39,6 +39,8 @@ int problem_initial(problem *p, error *err);
 /* The placement of the bodies as the assembly reads it; NULL: there are none. */
 const body_points *problem_points(const problem *p);
 
+/* Warns where the cells are far too large for the flow that is prescribed (resolution.c). */
+int problem_check_resolution(problem *p, error *err);
 /* Makes the mesh that a description says (make_mesh.c). */
 int problem_make_mesh(const description *d, registry *r, mesh *m, error *err);
 

@@ -53,7 +53,7 @@ static int add_symmetry(conditions *c, const description *d, space *s, int line,
 
     ARENA_NEW(&c->memory, axis, m->n_facet, err);
     for (int64_t f = 0; f < m->n_facet; f++) {
-        axis[f] = c->facet[line][f] ? (int8_t)facet_axis(m, f) : -1;
+        axis[f] = c->facet[line][f] ? (int8_t)describe_facet_axis(m, f) : -1;
         if (c->facet[line][f] && axis[f] < 0) {
             case_wrong(
                 d->c, l->block, "symmetry",
@@ -138,10 +138,9 @@ int conditions_create(conditions *c, const description *d, space *s, warning_lis
     return try_out(c, s, w, err);
 }
 
-int conditions_apply(const conditions *c, const space *s, double t, double *x, error *err)
+int conditions_values(const conditions *c, const space *s, double t, double *x, error *err)
 {
     int dim = s->mesh->dim;
-    double ignored;
 
     for (int i = 0; i < c->n_set; i++) {
         const dirichlet_set *d = &c->set[i];
@@ -157,7 +156,14 @@ int conditions_apply(const conditions *c, const space *s, double t, double *x, e
                     to[k] = v[k];
         }
     }
-    TRY(corners_apply(&c->corners, c->description, s, t, x, NULL, err));
+    return corners_apply(&c->corners, c->description, s, t, x, NULL, err);
+}
+
+int conditions_apply(const conditions *c, const space *s, double t, double *x, error *err)
+{
+    double ignored;
+
+    TRY(conditions_values(c, s, t, x, err));
     return c->flow.of_time ? net_flow_check(c, s, x, t, &ignored, err) : 0;
 }
 

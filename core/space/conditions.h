@@ -43,7 +43,9 @@ typedef struct conditions {
 /* Finds facets and nodes, and marks the unknowns in space.fixed; conditions that contradict each other at a node
  * are warnings.  ERR_CASE, also if more flows in than out at the start (see below). */
 int conditions_create(conditions *c, const description *d, space *s, warning_list *w, error *err);
-/* Prescribed values at time t into x [n_dof].  ERR_CASE if the field of an incompressible fluid is prescribed on
+/* Prescribed values at time t into x [n_dof]. */
+int conditions_values(const conditions *c, const space *s, double t, double *x, error *err);
+/* The same.  ERR_CASE if the field of an incompressible fluid is prescribed on
  * all of the boundary and what flows in does not flow out, by more than 1e-6 of it. */
 int conditions_apply(const conditions *c, const space *s, double t, double *x, error *err);
 void conditions_destroy(conditions *c);

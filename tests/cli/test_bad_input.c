@@ -44,7 +44,7 @@ static void all_mistakes_are_reported_together(void **state)
                 "fluid { density = \"one\", viscosity = -1 }\n" TERMS
                 "boundary \"*\" { u = {0} }\ntime { step = 0.1, stop = -1 }\n",
                 "bad.lua:1:", "bad.lua:2: fluid: \"density\"", "expected a number, got the string \"one\"",
-                "must lie between", "bad.lua:5:", "expected 2 components", "bad.lua:6:", "is not after start");
+                "must not be negative", "bad.lua:5:", "expected 2 components", "bad.lua:6:", "is not after start");
 }
 
 static void a_boundary_that_matches_nothing_lists_the_names(void **state)

@@ -154,7 +154,7 @@ static void a_block_outlives_the_name_that_made_it(void **state)
 static void the_table_of_globals_is_a_table_like_others(void **state)
 {
     (void)state;
-    assert_check(CAVITY "output { lines = { a = _ENV } }\n", 3, "line \"a\" needs from and to");
+    assert_check(CAVITY "output { lines = { a = _ENV } }\n", 3, "line \"a\": \"from\" is missing");
 }
 
 static void a_second_block_names_the_first(void **state)
@@ -171,7 +171,7 @@ static void a_list_of_names_that_is_too_long_is_an_error(void **state)
 {
     (void)state;
     assert_check(CAVITY "boundary { periodic = {\"left\", \"right\", \"top\"} }\n", 3,
-                 "case.lua:7: boundary: \"periodic\"", "expected at most 2 names, got 3");
+                 "case.lua:7: boundary: \"periodic\"", "expected the names of 2 boundaries", "got 3");
     assert_check(CAVITY "output { forces = {\"top\\0x\"} }\n", 3, "expected names in quotes");
 }
 

@@ -301,7 +301,7 @@ static void a_body_outside_the_mesh_or_misspelt_is_told(void **state)
                           "particle { shape = disk{radius=0.2}, density = 2, at = {3,0.5} }\ntime { step = 0.1, "
                           "stop = 1 }\n"),
                  scratch()),
-        6, "particle 0 has left the domain", "(3, 0.5");
+        3, "far.lua:7: particle 0 at (3, 0.5) lies outside of the mesh");
     assert_ran(
         plugflow("run %s --out %s/bad",
                  put_file("slip.lua",
