@@ -24,19 +24,27 @@ typedef struct search {
     double best, at[3];
 } search;
 
-/* Part of the way from the centre along own coordinates d[3] at which the body ends. */
+/* Whether the part r of the way from the centre along own coordinates d[3] ends inside. */
+static int is_inside(const shape *s, const double *d, double r)
+{
+    double x[3] = {0};
+
+    for (int k = 0; k < s->dim; k++)
+        x[k] = r * d[k];
+    return shape_level(s, x) < 0;
+}
+
+/* Part of that way at which the body ends. */
 static double reach(const shape *s, const double *d)
 {
     const double size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    double in = 0, out = 1.001 * s->radius / size, x[3] = {0};
+    double in = 0, out = 1.001 * s->radius / size;
 
     if (s->kind == SHAPE_DISTANCE) /* it may have bays: from outside to the first point inside */
         for (int i = OUTWARD - 1; i > 0 && in == 0; i--) {
             double r = 1.001 * s->radius / size * i / OUTWARD;
 
-            for (int k = 0; k < s->dim; k++)
-                x[k] = r * d[k];
-            if (shape_level(s, x) < 0)
+            if (is_inside(s, d, r))
                 in = r;
             else
                 out = r;
@@ -44,9 +52,7 @@ static double reach(const shape *s, const double *d)
     for (int i = 0; i < BISECTIONS; i++) {
         double r = 0.5 * (in + out);
 
-        for (int k = 0; k < s->dim; k++)
-            x[k] = r * d[k];
-        if (shape_level(s, x) < 0)
+        if (is_inside(s, d, r))
             in = r;
         else
             out = r;

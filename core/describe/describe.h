@@ -136,8 +136,6 @@ int describe_check(const description *d, const mesh *m, error *err);
 void describe_facets(const description *d, const mesh *m, int line, uint8_t *facet);
 /* Planes of the boundaries with symmetry = true, each once. */
 int describe_planes(const description *d, const mesh *m, symmetry_plane *plane, int *n, error *err);
-/* Axis along which a facet's normal lies, or -1. */
-int describe_facet_axis(const mesh *m, int64_t f);
 /* Smallest and largest coordinates of the mesh. */
 void describe_bounds(const mesh *m, double *low, double *high);
 void describe_destroy(description *d);

@@ -3,31 +3,14 @@
  * The planes of boundary "..." { symmetry = true }. */
 #include "describe/describe.h"
 
+#include "mesh/facet.h"
+
 #include <math.h>
-
-int describe_facet_axis(const mesh *m, int64_t f)
-{
-    const int32_t *cell = m->cell + (int64_t)m->facet[f].cell * m->type->n_node;
-
-    for (int k = 0; k < m->dim; k++) {
-        double low = INFINITY, high = -INFINITY;
-
-        for (int i = 0; i < m->type->facet_nodes; i++) {
-            double x = m->x[(int64_t)cell[m->type->facet[m->facet[f].local][i]] * m->dim + k];
-
-            low = fmin(low, x);
-            high = fmax(high, x);
-        }
-        if (high - low < 1e-8 * m->h[m->facet[f].cell])
-            return k;
-    }
-    return -1;
-}
 
 static void add_plane(const mesh *m, int64_t f, const char *name, symmetry_plane *plane, int *n)
 {
     const int32_t *cell = m->cell + (int64_t)m->facet[f].cell * m->type->n_node;
-    int axis = describe_facet_axis(m, f);
+    int axis = facet_axis(m, f);
     double at;
 
     if (axis < 0)

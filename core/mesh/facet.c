@@ -350,3 +350,22 @@ void facet_nearest(const facet *f, const double *x, facet_point *p)
     p->distance = sqrt(least);
     place(f, p->s, p->x);
 }
+
+int facet_axis(const mesh *m, int64_t f)
+{
+    const int32_t *cell = m->cell + (int64_t)m->facet[f].cell * m->type->n_node;
+
+    for (int k = 0; k < m->dim; k++) {
+        double low = INFINITY, high = -INFINITY;
+
+        for (int i = 0; i < m->type->facet_nodes; i++) {
+            double x = m->x[(int64_t)cell[m->type->facet[m->facet[f].local][i]] * m->dim + k];
+
+            low = fmin(low, x);
+            high = fmax(high, x);
+        }
+        if (high - low < 1e-8 * m->h[m->facet[f].cell])
+            return k;
+    }
+    return -1;
+}

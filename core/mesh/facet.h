@@ -38,5 +38,7 @@ void facet_nearest(const facet *f, const double *x, facet_point *p);
 void facet_normal(const facet *f, const double *s, double *n);
 int facet_n_vertex(const facet *f);
 void facet_vertex(const facet *f, int i, double *x);
+/* Axis along which the normal of a facet of the mesh lies, or -1. */
+int facet_axis(const mesh *m, int64_t facet);
 
 #endif

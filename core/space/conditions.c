@@ -5,6 +5,7 @@
 #include "space/conditions.h"
 
 #include "base/order.h"
+#include "mesh/facet.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -53,7 +54,7 @@ static int add_symmetry(conditions *c, const description *d, space *s, int line,
 
     ARENA_NEW(&c->memory, axis, m->n_facet, err);
     for (int64_t f = 0; f < m->n_facet; f++) {
-        axis[f] = c->facet[line][f] ? (int8_t)describe_facet_axis(m, f) : -1;
+        axis[f] = c->facet[line][f] ? (int8_t)facet_axis(m, f) : -1;
         if (c->facet[line][f] && axis[f] < 0) {
             case_wrong(
                 d->c, l->block, "symmetry",

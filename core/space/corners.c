@@ -68,25 +68,6 @@ int facet_weights(const mesh *m, int64_t facet, double (*weight)[3], double *all
     return 0;
 }
 
-int facet_axis(const mesh *m, int64_t f)
-{
-    const int32_t *cell = m->cell + (int64_t)m->facet[f].cell * m->type->n_node;
-
-    for (int k = 0; k < m->dim; k++) {
-        double low = INFINITY, high = -INFINITY;
-
-        for (int i = 0; i < m->type->facet_nodes; i++) {
-            double x = m->x[(int64_t)cell[m->type->facet[m->facet[f].local][i]] * m->dim + k];
-
-            low = fmin(low, x);
-            high = fmax(high, x);
-        }
-        if (high - low < 1e-8 * m->h[m->facet[f].cell])
-            return k;
-    }
-    return -1;
-}
-
 static double dot(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -40,8 +40,6 @@ int corners_apply(const corner_list *l, const description *d, const space *s, do
                   error *err);
 void corners_destroy(corner_list *l);
 
-/* Axis along which a facet's normal lies, or -1. */
-int facet_axis(const mesh *m, int64_t facet);
 /* Place and area element n ds (of the facet's own coordinates, fe_rule_facet) of a point of a facet. */
 void facet_element(const mesh *m, int64_t facet, const double *xi, const double (*tangent)[3], int orient,
                    double *x, double *ds);

@@ -5,6 +5,7 @@
 #include "space/conditions.h"
 
 #include "base/text.h"
+#include "mesh/facet.h"
 
 #include <math.h>
 #include <string.h>

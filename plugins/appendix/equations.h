@@ -2,6 +2,7 @@
  *
  * Particulate flow as the appendix prints it (B.4-B.45): what happens at a point.  lambda is the
  * multiplier, (U, omega) the motion of the body, r the arm from its centre. */
+#include <plugflow/rigid_motion.h>
 
 /* -alpha lambda . v - mu grad lambda : grad v  (B.4-B.6, what they add to A.10-A.12) */
 static int F(force)(const pf_batch *b, const NUM *const *in, NUM *const *out)
@@ -38,20 +39,11 @@ static int F(fluid_zero)(const pf_batch *b, const NUM *const *in, NUM *const *ou
 static int F(rigid_motion)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const NUM *restrict u = in[0], *restrict U = in[1], *restrict omega = in[2];
-    const double *restrict r = b->arm;
     NUM *restrict eta = out[0];
 
     for (uint32_t a = 0; a < b->dim; a++)
-        PF_LANES_OF (b, i) {
-            const uint32_t p = (a + 1) % 3, q = (a + 2) % 3;
-            NUM turn;
-
-            if (b->dim == 2)
-                turn = a == 0 ? -omega[i] * r[LD + i] : omega[i] * r[i];
-            else
-                turn = omega[p * LD + i] * r[q * LD + i] - omega[q * LD + i] * r[p * LD + i];
-            eta[a * LD + i] = u[a * LD + i] - U[a * LD + i] - turn;
-        }
+        PF_LANES_OF (b, i)
+            eta[a * LD + i] = u[a * LD + i] - U[a * LD + i] - F(pf_turn)(b, omega, a, i);
     return PF_OK;
 }
 

@@ -4,6 +4,7 @@
  * centre of the body.  Integrated over the body these are its mass and its full inertia,
  *
  *     int rho r x (dw/dt x r) = I dw/dt,      int rho r x (w x (w x r)) = w x I w. */
+#include <plugflow/rigid_motion.h>
 
 /* rho_P (dU/dt - g) . V */
 static int F(translation)(const pf_batch *b, const NUM *const *in, NUM *const *out)
@@ -28,16 +29,12 @@ static inline void F(turning)(const pf_batch *b, const NUM *w_t, const NUM *w, u
         m[0] = w_t[i] * (r[i] * r[i] + r[LD + i] * r[LD + i]);
         return;
     }
+    for (uint32_t k = 0; k < 3; k++)
+        c[k] = F(pf_turn)(b, w, k, i);
     for (uint32_t k = 0; k < 3; k++) {
         const uint32_t p = (k + 1) % 3, q = (k + 2) % 3;
 
-        c[k] = w[p * LD + i] * r[q * LD + i] - w[q * LD + i] * r[p * LD + i];
-    }
-    for (uint32_t k = 0; k < 3; k++) {
-        const uint32_t p = (k + 1) % 3, q = (k + 2) % 3;
-
-        a[k] = w_t[p * LD + i] * r[q * LD + i] - w_t[q * LD + i] * r[p * LD + i] + w[p * LD + i] * c[q] -
-               w[q * LD + i] * c[p];
+        a[k] = F(pf_turn)(b, w_t, k, i) + w[p * LD + i] * c[q] - w[q * LD + i] * c[p];
     }
     for (uint32_t k = 0; k < 3; k++) {
         const uint32_t p = (k + 1) % 3, q = (k + 2) % 3;

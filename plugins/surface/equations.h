@@ -4,23 +4,13 @@
  * arm from the centre of the body, w = u - U - omega x r the slip; z = v - V - xi x r is what the test
  * functions have of it, so that what the fluid gives the body takes, force and torque.  The q rows have the
  * sign of the printed continuity, + psi div u. */
+#include <plugflow/rigid_motion.h>
 
 /* w = u - U - omega x r at lane i */
 static inline void F(slip)(const pf_batch *b, const NUM *u, const NUM *U, const NUM *omega, uint32_t i, NUM *w)
 {
-    const double *r = b->arm;
-
-    if (b->dim == 2) {
-        w[0] = u[i] - U[i] + omega[i] * r[LD + i];
-        w[1] = u[LD + i] - U[LD + i] - omega[i] * r[i];
-        return;
-    }
-    for (uint32_t a = 0; a < 3; a++) {
-        const uint32_t p = (a + 1) % 3, q = (a + 2) % 3;
-
-        w[a] =
-            u[a * LD + i] - U[a * LD + i] - omega[p * LD + i] * r[q * LD + i] + omega[q * LD + i] * r[p * LD + i];
-    }
+    for (uint32_t a = 0; a < b->dim; a++)
+        w[a] = u[a * LD + i] - U[a * LD + i] - F(pf_turn)(b, omega, a, i);
 }
 
 /* -(2 mu D(u) n - p n) . z  +  2 mu D(v) n . w  -  q n . w  +  gamma mu/h w . z */
