@@ -3,12 +3,15 @@
  * plugflow COMMAND [options]: options, dispatch, exit codes. */
 #include "cli/cli.h"
 
+#include <errno.h>
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+
+enum { MOST_THREADS = 256 };
 
 static const struct command {
     const char *name, *operands, *doc;
@@ -92,7 +95,9 @@ static int parse_option(int argc, char **argv, int *i, cli *c, error *err)
     } else if ((v = option(argc, argv, i, "--threads", &bad))) {
         if (!bad)
             TRY(number_option("--threads", v, 1, &x, err));
-        c->n_thread = bad ? 1 : (int)fmin(x, 256);
+        if (!bad && (x > MOST_THREADS || x != floor(x)))
+            return error_set(err, ERR_USAGE, "--threads %s: expected a whole number up to %d", v, MOST_THREADS);
+        c->n_thread = bad ? 1 : (int)x;
     } else if ((v = option(argc, argv, i, "--memory", &bad))) {
         if (!bad)
             TRY(number_option("--memory", v, 0, &x, err));
@@ -139,7 +144,7 @@ static int parse(int argc, char **argv, cli *c, error *err)
 
 static const struct command *find_command(const char *name, error *err)
 {
-    const char *names[16], *near;
+    const char *names[16];
     size_t n = sizeof commands / sizeof *commands;
 
     for (size_t i = 0; i < n; i++) {
@@ -147,21 +152,21 @@ static const struct command *find_command(const char *name, error *err)
         if (strcmp(name, names[i]) == 0)
             return &commands[i];
     }
-    near = text_nearest(name, names, n);
-    error_set(err, ERR_USAGE, "unknown command \"%s\"%s%s%s; plugflow --help lists them", name,
-              near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "");
+    error_set(err, ERR_USAGE, "unknown command \"%s\"%s; plugflow --help lists them", name,
+              text_hint(text_nearest(name, names, n)).s);
     return NULL;
 }
 
 static int dispatch(int argc, char **argv, error *err)
 {
-    const struct command *command = find_command(argv[1], err);
+    const int help = strcmp(argv[1], "help") == 0; /* of a command */
+    const struct command *command = find_command(argv[1 + help], err);
     cli c = {0};
 
     if (!command)
         return err->code;
     for (int i = 2; i < argc; i++)
-        if (strcmp(argv[i], "--help") == 0) {
+        if (help || strcmp(argv[i], "--help") == 0) {
             usage(stdout);
             return 0;
         }
@@ -176,7 +181,8 @@ int main(int argc, char **argv)
     static error err;
     int status;
 
-    if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
+    if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 ||
+        (argc == 2 && strcmp(argv[1], "help") == 0)) {
         usage(argc < 2 ? stderr : stdout);
         return argc < 2 ? ERR_USAGE : 0;
     }
@@ -189,7 +195,9 @@ int main(int argc, char **argv)
     status = dispatch(argc, argv, &err);
     if (status && *err.text)
         fprintf(stderr, "plugflow: %s\n", err.text);
-    if (!status && fflush(stdout) != 0)
+    if (!status && fflush(stdout) != 0) {
+        fprintf(stderr, "plugflow: standard output cannot be written: %s\n", strerror(errno));
         status = ERR_IO;
+    }
     return status;
 }

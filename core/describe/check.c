@@ -11,7 +11,6 @@
 static int find_name(const description *d, const case_block *b, const char *key, const char *name,
                      const char *const *list, int n)
 {
-    const char *near;
     text t = {0};
 
     for (int i = 0; i < n; i++) {
@@ -19,10 +18,9 @@ static int find_name(const description *d, const case_block *b, const char *key,
             return i;
         text_add(&t, "%s%s", i ? ", " : "", list[i]);
     }
-    near = text_nearest(name, list, (size_t)n);
-    case_wrong(d->c, b, key, "%s: no boundary is called \"%s\"%s%s%s; the mesh has: %s%s",
-               key ? "output: forces" : "boundary", name, near ? "; did you mean \"" : "", near ? near : "",
-               near ? "\"?" : "", t.s ? t.s : "no named boundary (in Gmsh a physical group names one)",
+    case_wrong(d->c, b, key, "%s: no boundary is called \"%s\"%s; the mesh has: %s%s",
+               key ? "output: forces" : "boundary", name, text_hint(text_nearest(name, list, (size_t)n)).s,
+               t.s ? t.s : "no named boundary (in Gmsh a physical group names one)",
                key && d->n_body ? " (forces on bodies are in particles.csv without being asked for)" : "");
     text_free(&t);
     return -1;

@@ -12,7 +12,7 @@
 /* A field that cannot be written, with what can. */
 static void no_field(description *d, reader *r, const char *wrong)
 {
-    const char *name[TERM_MAX_FIELDS], *near;
+    const char *name[TERM_MAX_FIELDS];
     int n = 0, f = fields_find(&d->fields, wrong);
     text list = {0};
 
@@ -21,15 +21,14 @@ static void no_field(description *d, reader *r, const char *wrong)
             name[n++] = d->fields.f[i].name;
             text_add(&list, "%s%s (%s)", n > 1 ? ", " : "", d->fields.f[i].name, d->fields.f[i].doc);
         }
-    near = text_nearest(wrong, name, (size_t)n);
     if (f >= 0 && d->fields.f[f].support == PF_ON_PARTICLE)
         case_wrong(
             d->c, r->b, "fields",
             "output: fields: \"%s\" (%s) is in particles.csv without being asked for; fields of the mesh: %s",
             wrong, d->fields.f[f].doc, list.s ? list.s : "none");
     else if (!d->incomplete)
-        case_wrong(d->c, r->b, "fields", "output: there is no field \"%s\"%s%s%s; there are: %s", wrong,
-                   near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "", list.s ? list.s : "none");
+        case_wrong(d->c, r->b, "fields", "output: there is no field \"%s\"%s; there are: %s", wrong,
+                   text_hint(text_nearest(wrong, name, (size_t)n)).s, list.s ? list.s : "none");
     text_free(&list);
 }
 

@@ -36,7 +36,7 @@ static int add_use(description *d, const case_block *b, const term_plugin *plugi
 static void no_such_term(description *d, const case_block *b, const char *key, const char *what,
                          const term_plugin *plugin, const char *wrong)
 {
-    const char *name[64], *near;
+    const char *name[64];
     text list = {0};
     uint32_t n = 0;
 
@@ -44,9 +44,8 @@ static void no_such_term(description *d, const case_block *b, const char *key, c
         name[n] = plugin->term[n].name;
         text_add(&list, "%s%s", n ? ", " : "", name[n]);
     }
-    near = text_nearest(wrong, name, n);
-    case_wrong(d->c, b, key, "%s: plugin \"%s\" has no term \"%s\"%s%s%s\n    its terms: %s", what, plugin->d.name,
-               wrong, near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "", list.s ? list.s : "");
+    case_wrong(d->c, b, key, "%s: plugin \"%s\" has no term \"%s\"%s\n    its terms: %s", what, plugin->d.name,
+               wrong, text_hint(text_nearest(wrong, name, n)).s, list.s ? list.s : "");
     text_free(&list);
 }
 

@@ -17,7 +17,7 @@
 
 static int field_unknown(const vtu_file *v, const char *name, error *err)
 {
-    const char *names[VTU_MAX_FIELDS], *near;
+    const char *names[VTU_MAX_FIELDS];
     text list = {0};
     int status;
 
@@ -25,9 +25,8 @@ static int field_unknown(const vtu_file *v, const char *name, error *err)
         names[i] = v->field[i].name;
         text_add(&list, "%s%s", i ? ", " : "", names[i]);
     }
-    near = text_nearest(name, names, (size_t)v->n_field);
-    status = error_set(err, ERR_USAGE, "no field '%s'%s%s%s; there are: %s", name, near ? " (did you mean '" : "",
-                       near ? near : "", near ? "'?)" : "", list.s ? list.s : "none");
+    status = error_set(err, ERR_USAGE, "no field \"%s\"%s; there are: %s", name,
+                       text_hint(text_nearest(name, names, (size_t)v->n_field)).s, list.s ? list.s : "none");
     text_free(&list);
     return status;
 }

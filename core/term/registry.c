@@ -219,16 +219,14 @@ static int visit_wanted(const char *path, const char *name, void *arg)
 
 static int not_found(const registry *r, const struct wanted *w, error *err)
 {
-    const char *name[TERM_MAX_FILES], *near;
+    const char *name[TERM_MAX_FILES];
     text t = {0};
     int status;
 
     for (int i = 0; i < w->n_seen; i++)
         name[i] = w->seen[i];
-    near = text_nearest(w->name, name, (size_t)w->n_seen);
-    text_add(&t, "there is no plugin \"%s\"", w->name);
-    if (near)
-        text_add(&t, "; did you mean \"%s\"?", near);
+    text_add(&t, "there is no plugin \"%s\"%s", w->name,
+             text_hint(text_nearest(w->name, name, (size_t)w->n_seen)).s);
     text_add(&t, "\n    looked for:");
     for (int d = 0; d < r->n_dir; d++)
         text_add(&t, "\n      %s/%s.so\n      %s/%s/%s.so", r->dir[d], w->name, r->dir[d], w->name, w->name);

@@ -20,6 +20,17 @@ static void help_lists_the_commands(void **state)
     assert_ran(plugflow("--help"), 0, "run", "check", "describe", "picture", "exit codes");
 }
 
+static void a_slip_on_the_command_line_is_a_usage_error(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("help run"), 0, "exit codes");
+    assert_ran(plugflow("help nonsense"), 2, "unknown command \"nonsense\"");
+    assert_ran(plugflow("rnu x"), 2, "did you mean \"run\"?");
+    assert_ran(plugflow("run cases/couette.lua --threads 1000"), 2, "expected a whole number up to 256");
+    assert_ran(plugflow("run cases/couette.lua --threads 1.5"), 2, "expected a whole number up to 256");
+    assert_ran(plugflow("plugins > /dev/full"), 7, "standard output cannot be written");
+}
+
 static void plugins_lists_what_is_found_and_where(void **state)
 {
     (void)state;
@@ -190,6 +201,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(help_lists_the_commands),
+        cmocka_unit_test(a_slip_on_the_command_line_is_a_usage_error),
         cmocka_unit_test(plugins_lists_what_is_found_and_where),
         cmocka_unit_test(describe_gives_weak_form_parameters_and_source),
         cmocka_unit_test(test_says_one_line_per_block),
