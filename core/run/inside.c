@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Which body holds a place, and what the fields are there: the velocity is the body's motion, a field with
- * equations in the fluid only has no value.  By the poses of the state, as everything that is written. */
+ * Which body holds a place, and what the fields are there: the velocity is the body's motion; a field with
+ * equations in the fluid only has no value, and neither has one that enforces what a rigid motion fulfils by
+ * itself, as the pressure does.  By the poses of the state, as everything that is written. */
 #include "run/run.h"
 
 #include <math.h>
@@ -20,7 +21,8 @@ int inside_open(run *r, error *err)
     ARENA_NEW(&r->memory, r->body_of_node, r->p->mesh.n_node, err);
     ARENA_NEW(&r->memory, r->place, (int64_t)b->n * b->n_image, err);
     for (int f = 0; f < r->p->space.n_field; f++)
-        if (b->fluid_only[f] && f != bodies_rigid_field(b))
+        if (f != bodies_rigid_field(b) && r->p->space.field[f].support == PF_ON_MESH &&
+            (b->fluid_only[f] || !describe_field_is_balanced(&r->p->description, f)))
             r->empty |= 1u << f;
     return 0;
 }

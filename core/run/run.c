@@ -226,7 +226,8 @@ static int one_step(run *r, double next, error *err)
     TRY(tables_add(r, p->state.t, err));
     TRY(particles_write(r, p->state.t, err));
     progress = (run_progress){.step = r->result->steps,
-                              .steps = lround(ceil((time->stop - time->start) / time->step * (1 - 1e-12))),
+                              .steps = r->result->steps +
+                                       lround(ceil((time->stop - p->state.t) / time->step * (1 - 1e-12))),
                               .t = p->state.t,
                               .dt = p->state.dt_previous,
                               .newton = (int)(p->state.newton_iterations - before),
