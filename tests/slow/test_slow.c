@@ -42,6 +42,29 @@ static void cavity_128_agrees_with_ghia_at_re_1000(void **state)
     cavity(1000, 3, 0.02);
 }
 
+/* u on the vertical centre line at Re = 1000: from 64^2 to 128^2 it changes by less than 5e-4. */
+static void cavity_at_re_1000_has_converged_at_64(void **state)
+{
+    double *u[2], largest = 0;
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        char file[300];
+
+        assert_ran(
+            plugflow("run cases/cavity2d.lua --quiet --set re=1000 --set n=%d --out %s/cavity", 64 << k, scratch()),
+            0, NULL);
+        snprintf(file, sizeof file, "%s/cavity/lines/vertical.csv", scratch());
+        assert_int_equal(csv_column(file, "u", &u[k]), 129);
+    }
+    for (int i = 0; i < 129; i++)
+        largest = fmax(largest, fabs(u[0][i] - u[1][i]));
+    print_message("# cavity, Re 1000: u on the centre line, 64^2 against 128^2: %.2e\n", largest);
+    assert_between(largest, 0, 5e-4);
+    free(u[0]);
+    free(u[1]);
+}
+
 static void dfg_2d_2_lies_in_the_published_intervals(void **state)
 {
     (void)state;
@@ -134,6 +157,7 @@ int main(void)
         cmocka_unit_test(two_disks_meet_without_overlap),
         cmocka_unit_test(falling_disk_agrees_on_fine_meshes),
         cmocka_unit_test(a_settling_sphere_agrees_with_the_experiment),
+        cmocka_unit_test(cavity_at_re_1000_has_converged_at_64),
         cmocka_unit_test(dfg_2d_2_lies_in_the_published_intervals),
     };
 

@@ -41,7 +41,8 @@ static double worst(const char *name, const char *mode, const char *result, int 
                 name, mode, n, x, y, third, scratch()),
             0, NULL);
         most = fmax(most, fabs(summary("sharp", result) - 1));
-        /* |b - A x| / |b| falls to some times 1e-16 |A||x| / |b|, here up to 1e-10; 1e-7 would not move the force */
+        /* |b - A x| / |b| falls to some times 1e-16 |A||x| / |b|, here up to 1e-10; 1e-7 would not move the force
+         */
         assert_between(summary("sharp", "worst_linear_residual"), 0, 1e-8);
     }
     print_message("# %s, %s, n = %d: error at most %.3f %% at %d positions\n", name, mode, n, 100 * most,
