@@ -96,6 +96,9 @@ int space_attach(space *s, const int32_t *cell, const int32_t *body, int64_t n, 
 {
     arena_free(&s->attached_memory);
     s->n_attached = s->n_link = s->n_tie = 0;
+    if (n >= INT32_MAX) /* placements number them with 32 bits */
+        return error_set(err, ERR_CASE, "bodies are near %.3g cells, at most %.3g are possible", (double)n,
+                         (double)INT32_MAX);
     ARENA_NEW(&s->attached_memory, s->attached_cell, n + 1, err);
     ARENA_NEW(&s->attached_memory, s->attached_particle, n + 1, err);
     memcpy(s->attached_cell, cell, (size_t)n * sizeof *cell);
