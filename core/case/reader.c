@@ -151,6 +151,7 @@ int reader_string(reader *r, const char *key, const char *doc, const char **v)
     if (lua_type(r->c->lua, -1) != LUA_TSTRING)
         return mismatch(r, key, doc, "a string");
     *v = arena_strdup(&r->c->memory, lua_tostring(r->c->lua, -1));
+    r->c->no_memory |= !*v;
     lua_pop(r->c->lua, 1);
     return *v ? 1 : -1;
 }
@@ -240,6 +241,12 @@ int reader_strings(reader *r, const char *key, const char *doc, int most, const 
         }
         v[(*n)++] = arena_strdup(&r->c->memory, lua_tostring(l, -1));
         lua_pop(l, 1);
+        if (!v[*n - 1]) {
+            r->c->no_memory = 1;
+            *n = 0;
+            lua_pop(l, 1);
+            return -1;
+        }
     }
     lua_pop(l, 1);
     return 1;

@@ -14,11 +14,11 @@ static int find_name(const description *d, const case_block *b, const char *key,
     const char *near;
     text t = {0};
 
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < n; i++)
         if (strcmp(list[i], name) == 0)
             return i;
+    for (int i = 0; i < n; i++)
         text_add(&t, "%s%s", i ? ", " : "", list[i]);
-    }
     near = text_nearest(name, list, (size_t)n);
     case_wrong(d->c, b, key, "%s: no boundary is called \"%s\"%s%s%s; the mesh has: %s%s",
                key ? "output: forces" : "boundary", name, near ? "; did you mean \"" : "", near ? near : "",
