@@ -87,6 +87,17 @@ static double level_of(const void *ctx, const double *x)
     return solid_level(ctx, x);
 }
 
+typedef struct both {
+    const solid *a, *b;
+} both;
+
+static double level_of_both(const void *ctx, const double *x)
+{
+    const both *t = ctx;
+
+    return fmax(solid_level(t->a, x), solid_level(t->b, x));
+}
+
 /* How deep the surface of a, or a point half way to it, lies in b; 0: nowhere. */
 static double depth_in(const solid *a, const solid *b)
 {
@@ -94,8 +105,10 @@ static double depth_in(const solid *a, const solid *b)
     double small = surface_slack(b->shape);
 
     if (level > -small) {
-        level = surface_least(a, level_of, b, 0.5, inner);
-        return level < -small ? a->shape->thickness : 0;
+        const both t = {a, b}; /* the point may lie in a bay of a */
+
+        level = surface_least(a, level_of_both, &t, 0.5, inner);
+        return level < -fmax(small, surface_slack(a->shape)) ? a->shape->thickness : 0;
     }
     solid_slope(b, x, g);
     for (int k = 0; k < b->shape->dim; k++)

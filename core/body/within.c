@@ -87,7 +87,7 @@ static void find_crossings(const domain *o, const body_spec *q, crossing *c)
     }
 }
 
-/* Whether the centre of the body, or of an image, lies in the mesh. */
+/* Whether a point of a body, or the same of an image, lies in the mesh. */
 static int is_in_mesh(domain *o, const double *x)
 {
     for (int i = 0; i < o->n_image; i++) {
@@ -102,6 +102,22 @@ static int is_in_mesh(domain *o, const double *x)
                 return 1;
     }
     return 0;
+}
+
+static double first_coordinate(const void *ctx, const double *x)
+{
+    (void)ctx;
+    return x[0];
+}
+
+/* A point of the body: its centre, unless that lies in a hole of it. */
+static void point_of(const body_spec *q, double *x)
+{
+    const solid b = solid_at(&q->shape, &q->start);
+
+    memcpy(x, q->start.x, sizeof q->start.x);
+    if (solid_level(&b, x) >= 0)
+        surface_least(&b, first_coordinate, NULL, 1, x);
 }
 
 /* "bottom" by 0.1 and "top" by 0.2 */
@@ -159,11 +175,13 @@ static void check_body(domain *o, int k)
     const body_spec *q = &o->d->body[k];
     crossing c;
     text list = {0};
+    double x[3];
 
     find_crossings(o, q, &c);
+    point_of(q, x);
     if (list_crossings(o, &c, &list) > 0)
         tell_crossing(o, k, &c, list.s ? list.s : "");
-    else if (!is_in_mesh(o, q->start.x) && o->told++ < PLACES_MOST_TOLD)
+    else if (!is_in_mesh(o, x) && o->told++ < PLACES_MOST_TOLD)
         case_wrong(o->d->c, q->block, "at",
                    "particle %d at %s lies outside of the mesh, which reaches from %s to %s", k,
                    text_point(q->start.x, o->mesh->dim).s, text_point(o->low, o->mesh->dim).s,

@@ -67,6 +67,8 @@ int case_line(const case_file *c, const case_block *at, const char *key)
 
 int case_finish(case_file *c, error *err)
 {
+    if (c->no_memory)
+        return error_memory(err, c->path, 0);
     if (c->n_error == 0)
         return 0;
     return error_set(err, ERR_CASE, "%s", c->errors.s ? c->errors.s : "out of memory");

@@ -50,7 +50,8 @@ typedef struct case_file {
     size_t lua_bytes, lua_limit; /* held, and allowed now */
     case_refused refused;
     int n_block, n_set, n_param, n_source, n_error;
-    int n_wrong; /* calls of case_wrong; n_error counts each text once */
+    int n_wrong;   /* calls of case_wrong; n_error counts each text once */
+    int no_memory; /* something could not be read for lack of it          */
     case_block block[CASE_MAX_BLOCKS];
     case_set set[CASE_MAX_SETS];
     case_param param[CASE_MAX_SETS];
@@ -82,7 +83,7 @@ const case_block *case_find(const case_file *c, const char *kind, int k);
 /* Adds to what is wrong. */
 void case_wrong(case_file *c, const case_block *at, const char *key, const char *fmt, ...)
     __attribute__((format(printf, 4, 5)));
-/* ERR_CASE with all that was wrong, or 0. */
+/* ERR_CASE with all that was wrong, ERR_MEMORY if something could not be read, or 0. */
 int case_finish(case_file *c, error *err);
 /* Line of `key =` in a block (NULL, or not found: the block's own). */
 int case_line(const case_file *c, const case_block *at, const char *key);

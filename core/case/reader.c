@@ -165,6 +165,7 @@ int reader_string(reader *r, const char *key, const char *doc, const char **v)
         return mismatch(r, key, doc,
                         lua_type(r->c->lua, -1) == LUA_TSTRING ? "a string without zero bytes" : "a string");
     *v = arena_strdup(&r->c->memory, lua_tostring(r->c->lua, -1));
+    r->c->no_memory |= !*v;
     lua_pop(r->c->lua, 1);
     return *v ? 1 : -1;
 }
@@ -263,7 +264,7 @@ int reader_strings(reader *r, const char *key, const char *doc, int most, const 
         lua_pop(l, 1);
         if (!v[*n]) {
             *n = 0;
-            case_wrong(r->c, r->b, key, "%s: \"%s\": out of memory", r->what, key);
+            r->c->no_memory = 1;
             lua_pop(l, 1);
             return -1;
         }

@@ -119,15 +119,14 @@ int case_value(case_file *c, const case_block *b, const char *key, int n, int di
 {
     lua_State *l = c->lua;
     lua_value *v = arena_alloc(&c->memory, 1, sizeof *v);
+    const char *name = v ? arena_strdup(&c->memory, key) : NULL;
 
-    char *kept = arena_strdup(&c->memory, key);
-
-    if (!v || !kept) {
-        case_wrong(c, b, key, "%s: \"%s\": out of memory", b->kind, key);
+    if (!name) {
+        c->no_memory = 1;
         lua_pop(l, 1);
         return -1;
     }
-    *v = (lua_value){.c = c, .b = b, .key = kept, .n = n, .dim = dim};
+    *v = (lua_value){.c = c, .b = b, .key = name, .n = n, .dim = dim};
     *out = (value){.n = n, .ctx = v};
     if (lua_isfunction(l, -1)) {
         v->whole = 1;

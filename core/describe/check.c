@@ -13,11 +13,11 @@ static int find_name(const description *d, const case_block *b, const char *key,
 {
     text t = {0};
 
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < n; i++)
         if (strcmp(list[i], name) == 0)
             return i;
+    for (int i = 0; i < n; i++)
         text_add(&t, "%s%s", i ? ", " : "", list[i]);
-    }
     case_wrong(d->c, b, key, "%s: no boundary is called \"%s\"%s; the mesh has: %s%s",
                key ? "output: forces" : "boundary", name, text_hint(text_nearest(name, list, (size_t)n)).s,
                t.s ? t.s : "no named boundary (in Gmsh a physical group names one)",

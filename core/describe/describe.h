@@ -156,7 +156,7 @@ int describe_output(description *d, error *err);
 /* Numbers that terms need, and fields that nothing determines. */
 void describe_check_terms(const description *d);
 /* Bodies and the terms that move them and couple them with the flow. */
-void describe_check_formulation(const description *d);
+void describe_check_formulation(description *d);
 void describe_check_box(const description *d);
 
 /* --- what they share --- */

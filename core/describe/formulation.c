@@ -185,6 +185,31 @@ static void check_pressure(const description *d)
         }
 }
 
+/* Repulsion is measured in weights under water, unless its force is given. */
+static void check_repulsion(description *d)
+{
+    const int k = find_use(d, "contact.repulsion");
+    const pf_param *gravity = k >= 0 ? describe_param(&d->use[k], "gravity") : NULL,
+                   *density = k >= 0 ? describe_param(&d->use[k], "density") : NULL,
+                   *force = k >= 0 ? describe_param(&d->use[k], "force") : NULL;
+    const char *params = k >= 0 ? d->use[k].params : NULL;
+    double g[3], rho, given;
+    int weight = 0;
+
+    if (!gravity || !density || !force)
+        return;
+    memcpy(g, params + gravity->offset, sizeof g);
+    memcpy(&rho, params + density->offset, sizeof rho);
+    memcpy(&given, params + force->offset, sizeof given);
+    for (int i = 0; i < d->n_body; i++)
+        weight |= d->body[i].density != rho && (g[0] != 0 || g[1] != 0 || g[2] != 0);
+    if (!(given > 0) && !weight && d->n_body)
+        describe_warn(
+            d, d->use_block[k], NULL,
+            "contact.repulsion does nothing: its force is a multiple of the bodies' weight under water, which is "
+            "zero here; give it in N, as in term \"contact.repulsion\" { force = 1e-3 }");
+}
+
 /* --- from what terms say --- */
 
 /* Ties of cells with little fluid presume that their fields have no equation inside of bodies; a multiplier that
@@ -293,7 +318,7 @@ static void check_bodies(const description *d)
             first->block->kind);
 }
 
-void describe_check_formulation(const description *d)
+void describe_check_formulation(description *d)
 {
     int any_block = case_find(d->c, "particle", 0) || case_find(d->c, "particles", 0);
 
@@ -306,6 +331,7 @@ void describe_check_formulation(const description *d)
     if (!check_formulations(d))
         return;
     check_pressure(d);
+    check_repulsion(d);
     check_regions(d);
     if (d->n_body)
         check_bodies(d);
