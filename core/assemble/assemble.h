@@ -43,7 +43,7 @@ typedef struct body_points {
     const double *density;    /* [n_body] kg/m^3                                          */
     const uint8_t *idle;      /* [n_dof] 1: in the matrix, but off now (identity row)     */
     const double (*shift)[3]; /* of attached pairs: from the body to its image there       */
-    const uint8_t *off;       /* [n_cell] not 0: a body covers the cell or a part of it    */
+    const uint8_t *off;       /* [n_cell] not 0: a body is near, and may cover a part of it */
     int64_t n_pair;
     const near_pair *pair;
     int64_t n_solid, n_cut; /* attached pairs (space.h) covered; cells cut by a surface  */
@@ -155,7 +155,6 @@ typedef struct assembly {
 /* What a class is made of. */
 typedef struct assembly_spec {
     int where;               /* enum pf_where                                           */
-    int boundary;            /* PF_FACET: boundary name, or -1 for all                  */
     const uint8_t *facet_on; /* PF_FACET: [mesh->n_facet] 1 = the facet belongs to it   */
     const cut_rule *rule;    /* PF_SOLID, PF_FLUID in cut cells: the points             */
     int n_use;

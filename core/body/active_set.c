@@ -77,7 +77,7 @@ static void restrict_fields(const bodies *b, placement *p)
                 int32_t node = space_carrier(s, space_attached_group(s, a), i);
                 int64_t d = s->first[f][node], u = holds >= 0 ? s->first[holds][node] : -1;
 
-                for (int k = 0; k < s->field[f].n_comp; k++)
+                for (int k = 0; d >= 0 && k < s->field[f].n_comp; k++)
                     p->idle[d + k] = !(b->inside[node] > TAU * b->whole[node]) || (u >= 0 && s->fixed[u + k]);
             }
     }

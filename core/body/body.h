@@ -51,9 +51,8 @@ typedef struct tie_list {
 } tie_list;
 
 typedef struct placement {
-    int stamp;    /* another one for every placement, never 0   */
-    int envelope; /* stamp of the envelope that it was made in   */
-    solid *body;  /* [n_body] */
+    int stamp;   /* another one for every placement, never 0   */
+    solid *body; /* [n_body] */
     int64_t n_covered;
     int32_t *covered;       /* attached pairs whose body covers the cell or a part of it    */
     uint8_t *covers_all;    /* of each of them: all of the cell                            */

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Margin of the attached cells, in sizes of a cell; the body may move by it less one cell's reach. */
+/* Margin of the attached cells, in sizes of a cell. */
 #define MARGIN 1.07 /* no round number: bodies often lie along the lines of the mesh */
 
 int envelope_holds(const bodies *b, const pose *at)

@@ -18,7 +18,7 @@ static void fill_cell(const bodies *b, const placement *p, int f, int64_t a, uin
         int64_t d = s->first[f][node];
         double at[3] = {0}, v[3];
 
-        if (!p->idle[d] || filled[s->dof_node[d]])
+        if (d < 0 || !p->idle[d] || filled[s->dof_node[d]])
             continue;
         filled[s->dof_node[d]] = 1;
         for (int k = 0; k < m->dim; k++) /* in the frame of the body itself, not of its image */

@@ -71,8 +71,10 @@ void bodies_move(const bodies *b, const pose *from, double dt, const double *u0,
         to[k] = from[k];
         if (b->spec[k].motion == BODY_FIXED)
             continue;
-        for (int i = 0; u >= 0 && i < dim; i++)
+        for (int i = 0; u >= 0 && i < dim; i++) {
             to[k].x[i] += 0.5 * dt * (u0[u + i] + u1[u + i]);
+            to[k].way[i] += 0.5 * dt * (u0[u + i] + u1[u + i]);
+        }
         for (int i = 0; w >= 0 && i < n_spin(b); i++)
             turn[dim == 2 ? 2 : i] = 0.5 * dt * (u0[w + i] + u1[w + i]);
         pose_turn(&to[k], dim, turn);

@@ -278,12 +278,6 @@ static uint32_t find_fields(const bodies *b)
     return found;
 }
 
-/* Whether turning leaves the body where it is: its path does not turn either. */
-static int is_round(const shape *s)
-{
-    return s->kind == SHAPE_ELLIPSOID && s->half[0] == s->half[1] && (s->dim == 2 || s->half[1] == s->half[2]);
-}
-
 /* The images of the bodies, now and then. */
 static void place(bodies *p, const placement *now, int levels, const pose *const *then)
 {
@@ -296,12 +290,11 @@ static void place(bodies *p, const placement *now, int levels, const pose *const
 
             *b = (moving_body){.here = now->body[k], .moves = p->spec[k].motion != BODY_FIXED};
             for (int l = 0; l < levels; l++) {
-                solid turned = is_round(b->here.shape) ? b->here : solid_at(b->here.shape, &then[l][k]);
+                solid turned = shape_is_round(b->here.shape) ? b->here : solid_at(b->here.shape, &then[l][k]);
 
                 memcpy(b->then[l], turned.axes, sizeof turned.axes);
                 for (int i = 0; i < p->space->mesh->dim; i++)
-                    b->way[l][i] = b->here.at.x[i] - then[l][k].x[i];
-                mesh_nearest(p->space->mesh, b->way[l]); /* it may have come in again on the other side */
+                    b->way[l][i] = b->here.at.way[i] - then[l][k].way[i];
             }
             for (int i = 0; i < 3; i++)
                 b->here.at.x[i] += p->image[j][i];

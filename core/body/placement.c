@@ -61,7 +61,6 @@ static body_points view(const bodies *b, const placement *p)
 static int fill_placement(bodies *b, placement *p, const pose *at, int *fresh, error *err)
 {
     p->stamp = ++b->stamp;
-    p->envelope = b->envelope.stamp;
     ARENA_NEW(&p->memory, p->body, b->n, err);
     for (int k = 0; k < b->n; k++)
         p->body[k] = solid_at(&b->spec[k].shape, &at[k]);

@@ -182,6 +182,11 @@ int describe_output(description *d, error *err)
     if (d->time.unsteady && d->time.step > 0) /* about twenty files, after whole steps */
         o->every = d->time.step * fmax(1, ceil((d->time.stop - d->time.start) / d->time.step / 20 - 1e-9));
     reader_number(&r, "every", "time between two files of fields, s", 1e-300, 1e300, &o->every);
+    if (d->time.unsteady && d->time.step > 0 && o->every < 1e-6 * d->time.step)
+        case_wrong(d->c, o->block, "every",
+                   "output: every = %g is much shorter than a step of %g; it must be at least "
+                   "a millionth of it",
+                   o->every, d->time.step);
     read_fields(d, &r);
     TRY(read_probes(d, &r, err));
     TRY(read_lines(d, &r, err));

@@ -37,6 +37,8 @@ int shape_measure(shape *s, arena *memory, error *err);
 double shape_level(const shape *s, const double *body_x);
 /* Its gradient: by formula, or by central differences. */
 void shape_slope(const shape *s, const double *body_x, double *g);
+/* Whether turning leaves it where it is: a disk, a sphere. */
+int shape_is_round(const shape *s);
 /* The error that `distance` raised since the shape was measured, or 0: for all who used the level. */
 int shape_check(const shape *s, error *err);
 /* Largest extent from the centre in direction n (unit vector of the body's frame).  Of SHAPE_DISTANCE from points
@@ -48,9 +50,10 @@ int shape_is_smooth(const shape *s);
 
 /* Where a body is and how it is turned. */
 typedef struct pose {
-    double x[3];  /* centroid, m                                  */
-    double angle; /* 2D: of its x axis, rad                       */
-    double q[4];  /* 3D: unit quaternion, scalar part first       */
+    double x[3];   /* centroid, m                                  */
+    double angle;  /* 2D: of its x axis, rad                       */
+    double q[4];   /* 3D: unit quaternion, scalar part first       */
+    double way[3]; /* of the centroid since the start, m; periodic boundaries do not show in it */
 } pose;
 
 /* Turns by the rotation vector (rad); 2D: its last component. */

@@ -136,3 +136,8 @@ double shape_support(const shape *s, const double *n)
         return sampled_support(s, n);
     }
 }
+
+int shape_is_round(const shape *s)
+{
+    return s->kind == SHAPE_ELLIPSOID && s->half[0] == s->half[1] && (s->dim == 2 || s->half[1] == s->half[2]);
+}

@@ -19,6 +19,7 @@ int inside_open(run *r, error *err)
     if (b->n == 0)
         return 0;
     ARENA_NEW(&r->memory, r->body_of_node, r->p->mesh.n_node, err);
+    ARENA_NEW(&r->memory, r->in_file, r->p->space.n_dof, err);
     ARENA_NEW(&r->memory, r->place, (int64_t)b->n * b->n_image, err);
     for (int f = 0; f < r->p->space.n_field; f++)
         if (f != bodies_rigid_field(b) && r->p->space.field[f].support == PF_ON_MESH &&
@@ -95,7 +96,7 @@ static void enter(run *r, const body_place *p, double *shown)
             if (r->body_of_node[node] >= 0 || !holds(p, x))
                 continue;
             r->body_of_node[node] = p->body;
-            if (rigid >= 0)
+            if (rigid >= 0 && r->p->space.first[rigid][node] >= 0)
                 bodies_velocity(b, &p->solid.at, r->x, p->body, x, shown + r->p->space.first[rigid][node]);
         }
 }

@@ -52,6 +52,7 @@ int output_take(run *r, double t, error *err)
     for (int64_t d = 0; d < r->p->space.n_dof; d++)
         r->shown[d] = r->x[d] + r->offset[d];
     inside_update(r);
+    r->taken = t;
     return 0;
 }
 
@@ -138,11 +139,14 @@ int output_fields(run *r, double t, error *err)
     double start = clock_seconds();
 
     TRY(room_for_file(r, err));
-    inside_nodes(r, r->shown);
+    if (r->in_file) { /* nodes inside of bodies carry fluid for the rest of a cut cell: lines still need it */
+        memcpy(r->in_file, r->shown, (size_t)r->p->space.n_dof * sizeof *r->shown);
+        inside_nodes(r, r->in_file);
+    }
     snprintf(name, sizeof name, "fields_%05d.vtu", r->n_file);
     snprintf(path, sizeof path, "%s/%s", r->dir, name);
-    TRY(vtu_write(path, &r->p->space, out->field, out->n_field, r->shown, r->p->description.time.unsteady ? t : NAN,
-                  r->body_of_node ? &bodies : NULL, err));
+    TRY(vtu_write(path, &r->p->space, out->field, out->n_field, r->in_file ? r->in_file : r->shown,
+                  r->p->description.time.unsteady ? t : NAN, r->body_of_node ? &bodies : NULL, err));
     r->file[r->n_file] = strdup(name);
     if (!r->file[r->n_file])
         return error_memory(err, "list of files", 0);

@@ -62,9 +62,12 @@ static void count_active(const run *r, double *n)
     for (int64_t a = 0; f < s->n_field && a < now->n_covered; a++) {
         int64_t group = space_attached_group(s, now->covered[a]);
 
-        for (int i = 0; i < s->mesh->type->n_node; i++) /* a node counts in the first cell that lists it */
-            if (!now->idle[s->first[f][space_carrier(s, group, i)]])
+        for (int i = 0; i < s->mesh->type->n_node; i++) { /* a node counts in equal parts in its cells */
+            int64_t d = s->first[f][space_carrier(s, group, i)];
+
+            if (d >= 0 && !now->idle[d])
                 n[s->attached_particle[now->covered[a]]] += 1.0 / r->node_share[space_carrier(s, group, i)];
+        }
     }
 }
 
@@ -186,9 +189,11 @@ int particles_outline(run *r, error *err)
     TRY(status);
     TRY(bodies_check(&p->bodies, err)); /* the outline met the levels */
     more = realloc(r->body_file, (size_t)(r->n_body_file + 1) * sizeof *more);
-    if (!more || !(more[r->n_body_file] = strdup(name)))
+    if (!more)
         return error_memory(err, path, 0);
     r->body_file = more;
+    if (!(more[r->n_body_file] = strdup(name)))
+        return error_memory(err, path, 0);
     r->n_body_file++;
     snprintf(path, sizeof path, "%s/particles.pvd", r->dir);
     return vtu_write_pvd(path, (const char *const *)r->body_file, r->file_time, r->n_body_file, err);

@@ -136,7 +136,7 @@ static int tell_warnings(run *r, error *err)
         int status;
 
         text_add(&s, "  warning: ");
-        text_add(&s, w->text[r->told]);
+        text_add(&s, "%s", w->text[r->told]);
         if (r->talk && r->talk->warn && !s.failed)
             r->talk->warn(r->talk->ctx, s.s);
         text_free(&s);
@@ -237,6 +237,9 @@ static int one_step(run *r, double next, error *err)
     return 0;
 }
 
+/* Part of a step below which none is made: the one before or after is longer or shorter by it. */
+#define NEAR 0.01
+
 /* Steps of the given length, with one more wherever fields are due within a step. */
 static int march(run *r, const volatile sig_atomic_t *stop, error *err)
 {
@@ -250,14 +253,15 @@ static int march(run *r, const volatile sig_atomic_t *stop, error *err)
     TRY(output_fields(r, time->start, err));
     while (k <= n) {
         double grid = k == n ? time->stop : time->start + (double)k * time->step;
-        double due = time->start + (double)files * every;
-        int status = one_step(r, due < grid - slack ? due : grid, err);
+        double due = time->start + (double)files * every, near = k < n ? NEAR * time->step : 0;
+        double next = due < grid + near && fabs(due - grid) > slack ? due : grid;
+        int status = one_step(r, next, err);
         error ignored;
 
-        if (status && p->state.t > p->state.written) /* the last good state goes to disk */
-            output_fields(r, p->state.t, &ignored);
+        if (status && r->taken > p->state.written) /* the last good state goes to disk */
+            output_fields(r, r->taken, &ignored);
         TRY(status);
-        k += due >= grid - slack;
+        k += next >= grid - near;
         if (p->state.t >= due - slack || k > n) {
             while (time->start + (double)files * every <= p->state.t + slack)
                 files++;

@@ -56,12 +56,14 @@ typedef struct run {
     const char *dir;
     const run_talk *talk;
     run_result *result;
-    double *x; /* [n_dof] the solution, free fields with zero mean */
+    double *x;    /* [n_dof] the solution, free fields with zero mean */
+    double taken; /* its time: of the last step of the run, s */
     table forces, probes, particles;
     double *body_row;  /* room for a row of particles.csv, and a count a body */
     float *node_share; /* [n_node] */
     int n_body_file;
     char **body_file;
+    uint8_t *facet_count; /* [3 n_node] room for reactions of a boundary */
     struct located *probe_at, **line_at;
     int log_fd, warned, warned_singular, warned_order;
     int told; /* warnings said so far */
@@ -69,8 +71,9 @@ typedef struct run {
     char **file;
     double *file_time;
     double start;
-    double *offset; /* [n_dof] added to the solution in files */
-    double *shown;  /* [n_dof] solution + offset; from inside_nodes() on with the bodies' motion in them */
+    double *offset;  /* [n_dof] added to the solution in files */
+    double *shown;   /* [n_dof] solution + offset */
+    double *in_file; /* [n_dof] the same with the bodies' motion at nodes inside of them; NULL: no bodies */
     int n_place;
     body_place *place;     /* where bodies are                                        */
     int32_t *body_of_node; /* [n_node] body that holds the node, or -1; NULL: none       */

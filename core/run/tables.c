@@ -33,16 +33,29 @@ int output_components(const field_spec *f, const char *prefix, char (*name)[96])
 typedef struct columns {
     int n, room;
     char (*name)[96], (*unit)[32];
+    int failed; /* memory ran out */
 } columns;
+
+static void columns_free(columns *c)
+{
+    free(c->name);
+    free(c->unit);
+    *c = (columns){0};
+}
 
 static char (*more(columns *c, int n, const char *unit))[96]
 {
-    while (c->n + n > c->room) {
-        c->room = 2 * c->room + 64;
-        c->name = realloc(c->name, (size_t)c->room * sizeof *c->name);
-        c->unit = realloc(c->unit, (size_t)c->room * sizeof *c->unit);
-        if (!c->name || !c->unit)
+    if (c->n + n > c->room) {
+        int room = 2 * c->room + n + 64;
+        void *name = realloc(c->name, (size_t)room * sizeof *c->name), *units;
+
+        c->name = name ? name : c->name;
+        units = realloc(c->unit, (size_t)room * sizeof *c->unit);
+        c->unit = units ? units : c->unit;
+        c->failed |= !name || !units;
+        if (!name || !units)
             return NULL;
+        c->room = room;
     }
     for (int i = 0; i < n; i++)
         snprintf(c->unit[c->n + i], sizeof *c->unit, "%s", unit);
@@ -69,14 +82,12 @@ static int plan_table(run *r, table *t, const char *file, columns *c, text *unit
     text_add(units, "}");
     status = table_create(t, path, name, c->n, err);
     free(name);
-    free(c->name);
-    free(c->unit);
-    *c = (columns){0};
+    columns_free(c);
     return status;
 }
 
 /* Columns of one boundary: fx, fy[, fz], torque (2D) or tx, ty, tz, and other reactions by name. */
-static int force_columns(const problem *p, const char *boundary, columns *c)
+static void force_columns(const problem *p, const char *boundary, columns *c)
 {
     for (int f = 0; f < p->space.n_field; f++) {
         const field_spec *g = &p->space.field[f];
@@ -100,53 +111,60 @@ static int force_columns(const problem *p, const char *boundary, columns *c)
             else
                 snprintf(name[k], 96, "%.40s.t%c", boundary, axis[k]);
     }
-    return c->name != NULL;
+}
+
+static int plan_forces(run *r, columns *c, text *units, error *err)
+{
+    const output_spec *o = &r->p->description.output;
+    char(*name)[96] = more(c, 1, "s");
+
+    if (name)
+        strcpy(*name, "t");
+    for (int i = 0; i < o->n_force && !c->failed; i++)
+        force_columns(r->p, o->force[i], c);
+    if (c->failed)
+        return error_memory(err, "forces.csv", 0);
+    ARENA_NEW(&r->memory, r->facet_count, 3 * r->p->mesh.n_node, err);
+    return plan_table(r, &r->forces, "forces.csv", c, units, err);
+}
+
+static int plan_probes(run *r, columns *c, text *units, error *err)
+{
+    const problem *p = r->p;
+    const output_spec *o = &p->description.output;
+    char(*name)[96] = more(c, 1, "s");
+
+    if (name)
+        strcpy(*name, "t");
+    for (int i = 0; i < o->n_probe; i++) {
+        char prefix[60];
+
+        snprintf(prefix, sizeof prefix, "%.50s.", o->probe[i].name);
+        for (int f = 0; f < p->space.n_field; f++) {
+            name = output_has_columns(&p->space.field[f])
+                       ? more(c, p->space.field[f].n_comp, p->space.field[f].unit)
+                       : NULL;
+            if (name)
+                output_components(&p->space.field[f], prefix, name);
+        }
+        name = p->bodies.n ? more(c, 1, "1") : NULL;
+        if (name)
+            snprintf(*name, sizeof *name, "%sbody", prefix);
+    }
+    return c->failed ? error_memory(err, "probes.csv", 0) : plan_table(r, &r->probes, "probes.csv", c, units, err);
 }
 
 int tables_plan(run *r, text *units, error *err)
 {
-    problem *p = r->p;
-    const output_spec *o = &p->description.output;
+    const output_spec *o = &r->p->description.output;
     columns c = {0};
-    char(*name)[96];
+    int status = o->n_force ? plan_forces(r, &c, units, err) : 0;
 
-    if (o->n_force) {
-        name = more(&c, 1, "s");
-        if (!name)
-            return error_memory(err, "forces.csv", 0);
-        strcpy(*name, "t");
-        for (int i = 0; i < o->n_force; i++)
-            if (!force_columns(p, o->force[i], &c))
-                return error_memory(err, "forces.csv", 0);
-        TRY(plan_table(r, &r->forces, "forces.csv", &c, units, err));
-    }
-    if (o->n_probe) {
-        name = more(&c, 1, "s");
-        if (!name)
-            return error_memory(err, "probes.csv", 0);
-        strcpy(*name, "t");
-        for (int i = 0; i < o->n_probe; i++) {
-            char prefix[60];
-
-            snprintf(prefix, sizeof prefix, "%.50s.", o->probe[i].name);
-            for (int f = 0; f < p->space.n_field; f++) {
-                if (!output_has_columns(&p->space.field[f]))
-                    continue;
-                name = more(&c, p->space.field[f].n_comp, p->space.field[f].unit);
-                if (!name)
-                    return error_memory(err, "probes.csv", 0);
-                output_components(&p->space.field[f], prefix, name);
-            }
-            if (p->bodies.n) {
-                name = more(&c, 1, "1");
-                if (!name)
-                    return error_memory(err, "probes.csv", 0);
-                snprintf(*name, sizeof *name, "%sbody", prefix);
-            }
-        }
-        TRY(plan_table(r, &r->probes, "probes.csv", &c, units, err));
-    }
-    return 0;
+    columns_free(&c);
+    if (!status && o->n_probe)
+        status = plan_probes(r, &c, units, err);
+    columns_free(&c);
+    return status;
 }
 
 int tables_locate(run *r, error *err)
@@ -194,12 +212,12 @@ static double *reaction(const run *r, int boundary, int f, const double *about, 
     const space *s = &p->space;
     int n_comp = s->field[f].n_comp,
         n_local = s->field[f].order == 2 ? m->type->facet_nodes : m->type->facet_vertices;
-    uint8_t *mine = calloc((size_t)(3 * m->n_node), 1), *all = mine + m->n_node, *seen = all + m->n_node;
+    uint8_t *mine = r->facet_count, *all = mine + m->n_node, *seen = all + m->n_node;
     double torque[3] = {0}, sum[3] = {0};
 
-    if (mine)
-        count_facets(p, boundary, f, n_local, mine, all);
-    for (int32_t node = 0; mine && node < m->n_node; node++) {
+    memset(mine, 0, (size_t)(3 * m->n_node));
+    count_facets(p, boundary, f, n_local, mine, all);
+    for (int32_t node = 0; node < m->n_node; node++) {
         const double *res = r->stepper->reaction[REACTION_ALL] + (mine[node] ? s->first[f][node] : 0);
         int32_t carrier = mine[node] ? s->dof_node[s->first[f][node]] : 0; /* periodic ends are one node */
         double share = all[node] > mine[node] ? (double)mine[node] / all[node] : 1, d[3] = {0}, q[3] = {0};
@@ -215,7 +233,6 @@ static double *reaction(const run *r, int boundary, int f, const double *about, 
         torque[1] += d[2] * q[0] - d[0] * q[2];
         torque[2] += d[0] * q[1] - d[1] * q[0];
     }
-    free(mine);
     for (int a = 0; a < n_comp; a++)
         *out++ = sum[a];
     if (n_comp > 1)

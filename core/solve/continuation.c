@@ -6,6 +6,7 @@
 #include "solve/solve.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* The problem at s: moved parameters, or what is left out of the terms that fade in. */
@@ -23,7 +24,7 @@ int continuation_solve(newton_system *s, continuation *c, const newton_options *
     newton_time steady = {.bodies = c->bodies};
     newton_options loose = *o;
     double *start, *last, *before, at = 0, previous = -1, ds = 0.25;
-    int total = 0;
+    int total = 0, go_on;
 
     *n_steps = 0;
     ARENA_NEW(&s->memory, start, n, err);
@@ -45,7 +46,8 @@ int continuation_solve(newton_system *s, continuation *c, const newton_options *
     total += report->iterations;
     if (talk)
         talk(ctx, 0, report->iterations, report->converged);
-    while (report->converged && at < 1 && !(s->stop && *s->stop)) {
+    go_on = report->converged;
+    while (go_on && at < 1 && !(s->stop && *s->stop)) {
         double next = fmin(1, at + ds);
 
         memcpy(last, x, n * sizeof *x);
@@ -65,10 +67,14 @@ int continuation_solve(newton_system *s, continuation *c, const newton_options *
         } else {
             memcpy(x, last, n * sizeof *x);
             ds *= 0.5;
-            report->converged = ds > 1.0 / 256;
+            go_on = ds > 1.0 / 256;
         }
     }
     set(c, 1, &steady);
+    if (at < 1)
+        report->converged = 0;
+    if (at < 1 && s->stop && *s->stop)
+        snprintf(report->why, sizeof report->why, "stopped by a signal");
     report->total = total;
     return 0;
 }

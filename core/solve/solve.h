@@ -40,7 +40,7 @@ typedef struct linear {
 
 int linear_create(linear *l, const pf_solver *solver, const space *s, int n_thread, error *err);
 /* Solves A x = b to |b - A x| <= tol |b|: with the factors there are, as preconditioner of GMRES,
- * if that pays, else with fresh ones.  A fresh solve below LINEAR_ACCEPT passes whatever tol is.
+ * if that pays, else with fresh ones.  A fresh one passes whatever tol is, unless it is useless.
  * Errors: ERR_CONVERGE with err->retry if the matrix is singular or nearly so; ERR_PLUGIN if the solver does not
  * solve. */
 int linear_solve(linear *l, const double *b, double *x, double tol, error *err);

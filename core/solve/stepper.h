@@ -27,6 +27,7 @@ typedef struct stepper {
     state *now;                                     /* of whom it is */
     state trial[3];                                 /* attempts */
     double *history, *level;                        /* [n_dof] */
+    uint8_t *idle;                                  /* [n_dof] of the first of the steps that are extrapolated */
     double *reaction[REACTIONS], *saved[REACTIONS]; /* [n_dof]; without bodies only that of all terms */
     newton_report report;
     enum too_far too_far;   /* why the last step was refused before or after it was solved */

@@ -114,7 +114,7 @@ int space_attach(space *s, const int32_t *cell, const int32_t *body, int64_t n, 
             for (int i = 0; i < s->mesh->type->n_node; i++) {
                 int64_t d = s->first[f][space_carrier(s, space_attached_group(s, a), i)];
 
-                for (int c = 0; c < s->field[f].n_comp; c++)
+                for (int c = 0; d >= 0 && c < s->field[f].n_comp; c++)
                     s->fixed[d + c] &= SPACE_PRESCRIBED;
             }
     return 0;

@@ -3,7 +3,7 @@
  * state.h -- everything that a time step changes, in one place.
  *
  * A step is tried on a copy: to repeat it is to drop the copy.  Members stand in one table (state.c), which copying
- * goes by, so that none can be forgotten. */
+ * goes by: a new one has to be entered there. */
 #ifndef STATE_STATE_H
 #define STATE_STATE_H
 

@@ -12,7 +12,7 @@
 struct contact {
     double density, gravity[3]; /* of the fluid                                      */
     double range;               /* m; 0: a fifth of the body                         */
-    double strength;            /* force at contact in units of the body's weight    */
+    double strength;            /* at contact, in weights of a box round the body     */
     double force;               /* N, instead of strength; 0: not given              */
 };
 
@@ -87,7 +87,7 @@ static const pf_term lubrication = {
                         .dflt = 2, PF_NOT_NEGATIVE),
               PF_NUMBER(struct film, floor, "1",
                         "gap below which the resistance grows no more (roughness), in cells", .dflt = 0.1,
-                        PF_NOT_NEGATIVE)),
+                        .min = 1e-6, .max = 1e30)),
     .reach = film_reach,
 };
 

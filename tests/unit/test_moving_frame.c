@@ -58,8 +58,10 @@ static moved move_body(int dim, int turns)
     for (int step = 0; step < 3; step++) { /* two steps ago, a step ago, now */
         if (step == 2)
             memcpy(m.then, p->state.pose, 2 * sizeof *m.then);
-        for (int b = 0; step && b < dim; b++)
+        for (int b = 0; step && b < dim; b++) {
             p->state.pose[0].x[b] += way[b];
+            p->state.pose[0].way[b] += way[b];
+        }
         if (step && turns)
             pose_turn(&p->state.pose[0], dim, turn);
     }
