@@ -29,8 +29,9 @@ static int run_disk(void **state)
              "boundary 'left' { u = function(x, y) return 4*y*(1-y), 0 end }\nboundary 'right' { natural = true }\n"
              "boundary '*' { u = {0,0} }\nparticle { shape = disk{radius=0.195}, density = 1, at = {0.55,0.5}, "
              "motion = 'prescribed', velocity = {0.1,0}, spin = 2 }\ntime { step = 0.05, stop = 0.17 }\n"
-             "output { every = 0.07, probes = { inner = {0.6,0.45}, outer = {1.5,0.5} },\n"
-             "  lines = { mid = { from = {0,0.45}, to = {2,0.45}, points = 21 } } }\n");
+             "output { every = 0.07, probes = { inner = {0.6,0.45}, outer = {1.5,0.5}, cut = {0.78,0.45} },\n"
+             "  lines = { mid = { from = {0,0.45}, to = {2,0.45}, points = 21 }, cut = { from = {0.77,0.45}, to = "
+             "{0.79,0.45}, points = 3 } } }\n");
     for (int k = 0; k < 2; k++) {
         const char *name = k ? "conservative" : "sharp";
 
@@ -105,6 +106,27 @@ static void a_line_through_a_body_has_its_motion_and_no_pressure(void **state)
         free(v[c]);
 }
 
+/* In the part of a cell that the surface leaves to the fluid, a line has what a probe has. */
+static void lines_and_probes_agree_in_cut_cells(void **state)
+{
+    static const char *const name[] = {"u", "v", "p"}, *const probe[] = {"cut.u", "cut.v", "cut.p"};
+    char file[300];
+
+    (void)state;
+    for (int c = 0; c < 3; c++) {
+        double *line, *at;
+
+        snprintf(file, sizeof file, "%s/sharp/lines/cut.csv", scratch());
+        assert_int_equal(csv_column(file, name[c], &line), 3);
+        snprintf(file, sizeof file, "%s/sharp/probes.csv", scratch());
+        assert_int_equal(csv_column(file, probe[c], &at), STEPS);
+        assert_true(isfinite(line[1]));
+        assert_between(line[1] - at[STEPS - 1], -1e-13, 1e-13);
+        free(line);
+        free(at);
+    }
+}
+
 static void fields_are_written_at_multiples_of_every(void **state)
 {
     (void)state;
@@ -115,6 +137,8 @@ static void fields_are_written_at_multiples_of_every(void **state)
 static void a_warning_is_on_stderr_in_the_log_and_in_the_summary(void **state)
 {
     (void)state;
+    assert_ran(shell("cp %s/disk.lua '%s/100%%s%%n.lua'", scratch(), scratch()), 0, NULL);
+    assert_ran(plugflow("run '%s/100%%s%%n.lua' --quiet --out %s/percent", scratch(), scratch()), 0, "3.9 cells");
     assert_ran(plugflow("run %s/disk.lua --quiet --out %s/again", scratch(), scratch()), 0,
                "warning: particle 0 (line 9) is 0.39 wide, 3.9 cells");
     assert_ran(shell("grep '\"warning\"' %s/again/run.jsonl", scratch()), 0,
@@ -129,6 +153,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_probe_in_a_body_has_its_motion_and_no_pressure),
         cmocka_unit_test(a_line_through_a_body_has_its_motion_and_no_pressure),
+        cmocka_unit_test(lines_and_probes_agree_in_cut_cells),
         cmocka_unit_test(fields_are_written_at_multiples_of_every),
         cmocka_unit_test(a_warning_is_on_stderr_in_the_log_and_in_the_summary),
     };

@@ -149,6 +149,32 @@ static void a_long_way_is_gone_in_shorter_steps(void **state)
     free(x);
 }
 
+/* A way of a whole period is no rest, and a long body that turns goes a long way at its ends. */
+static void ways_are_seen_whole(void **state)
+{
+    char file[300];
+    double *x;
+
+    (void)state;
+    put_file(
+        "period.lua",
+        "local turn = param('turn', 0)\nmesh { box = {{0,0},{1,1}}, cells = {20,20} }\n"
+        "fluid { density = 1, viscosity = 1 }\nterm 'continuity' {}\nterm 'momentum' {}\n"
+        "particulate 'conservative'\nboundary { periodic = {'left','right'} }\nboundary '*' { u = {0,0} }\n"
+        "particle { shape = turn > 0 and ellipse{a=0.3,b=0.1} or disk{radius=0.1}, density = 2, at = {0.5,0.5}, "
+        "motion = 'prescribed', velocity = {turn > 0 and 0 or 10,0}, spin = turn }\n"
+        "time { step = 0.1, stop = 0.1 }\n");
+    assert_ran(plugflow("run %s/period.lua --quiet --out %s/period", scratch(), scratch()), 0,
+               "particle 0 would move by 20 cells");
+    assert_true(summary("period", "steps_shortened") >= 3);
+    snprintf(file, sizeof file, "%s/period/particles.csv", scratch());
+    assert_int_equal(csv_column(file, "x", &x), 1);
+    assert_between(x[0] - 0.5, -1e-12, 1e-12);
+    free(x);
+    assert_ran(plugflow("run %s/period.lua --quiet --set turn=10 --out %s/period", scratch(), scratch()), 0,
+               "particle 0 would move by 6 cells");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -157,6 +183,7 @@ int main(void)
         cmocka_unit_test(no_step_carries_a_body_through_a_wall),
         cmocka_unit_test(no_step_carries_bodies_through_each_other),
         cmocka_unit_test(a_long_way_is_gone_in_shorter_steps),
+        cmocka_unit_test(ways_are_seen_whole),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
