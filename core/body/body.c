@@ -128,6 +128,7 @@ int bodies_create(bodies *b, const description *d, space *s, const cell_grid *gr
     TRY(pairs_create(b, err));
     bodies_hold(b);
     TRY(bodies_place(b, start, &ignored, err));
+    TRY(parts_check(b, err));
     return warn_resolution(b, err);
 }
 

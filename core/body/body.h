@@ -208,6 +208,10 @@ const moving_frame *bodies_paths(bodies *b, const placement *now, int levels, co
 
 /* --- between the files of this folder --- */
 
+/* After the first placement: a warning if bodies separate the fluid, ERR_CASE if the flow does not feel one
+ * (parts.c). */
+int parts_check(const bodies *b, error *err);
+
 /* Which of n symmetry planes go through the body's centre: how many (symmetry.c). */
 int symmetry_planes_at(const symmetry_plane *plane, int n, const solid *b, int *which);
 /* The body of an attached pair, at the place of its image there. */

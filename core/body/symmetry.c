@@ -55,8 +55,24 @@ static void ruled_out(int dim, const symmetry_plane *plane, int *out)
         out[3 + k] |= dim == 2 ? k == 2 : k != plane->axis;
 }
 
-static void check_motion(const description *d, const body_spec *q, const symmetry_plane *plane, const int *which,
-                         int n)
+/* The largest of a component of a given motion: a number, or a function at a few times of the run. */
+static int is_given(const description *d, const value *v, int comp, double *largest, error *err)
+{
+    double t0 = d->time.start, t1 = d->time.unsteady ? d->time.stop : t0;
+
+    *largest = 0;
+    for (int k = 0; v->f ? k < 5 : k < 1; k++) {
+        double out[VALUE_MAX] = {0};
+
+        TRY(value_at(v, (double[3]){0}, t0 + k * (t1 - t0) / 4, out, err));
+        *largest = fmax(*largest, fabs(out[comp]));
+    }
+    return 0;
+}
+
+/* Motions that a plane rules out must be held, and none of them be given. */
+static int check_motion(const description *d, const body_spec *q, const symmetry_plane *plane, const int *which,
+                        int n, error *err)
 {
     static const char *const name[] = {"x", "y", "z", "spin_x", "spin_y", "spin_z"};
     int out[6] = {0}, missing = 0;
@@ -72,11 +88,31 @@ static void check_motion(const description *d, const body_spec *q, const symmetr
     if (missing)
         case_wrong(d->c, q->block, "at",
                    "particle %d at %s is cut by the symmetry plane \"%s\", so its other half moves as a mirror "
-                   "image: hold what is "
-                   "not symmetric, hold = {%s}",
+                   "image: hold what is not symmetric, hold = {%s}",
                    (int)(q - d->body), text_point(q->start.x, d->dim).s, plane[which[0]].boundary,
                    list.s ? list.s : "");
     text_free(&list);
+    for (int k = 0; k < 6; k++) {
+        const value *v = k < 3 ? &q->velocity : &q->spin;
+        int comp = k < 3 ? k : d->dim == 2 ? 0 : k - 3;
+        double largest;
+
+        if (!out[k] || comp >= v->n)
+            continue;
+        TRY(is_given(d, v, comp, &largest, err));
+        if (largest > 0)
+            case_wrong(
+                d->c, q->block, k < 3 ? "velocity" : "spin",
+                "particle %d at %s is cut by the symmetry plane \"%s\", so its %s along %s must be zero, not "
+                "%g",
+                (int)(q - d->body), text_point(q->start.x, d->dim).s, plane[which[0]].boundary,
+                k < 3 ? "velocity" : "spin",
+                k % 3 == 0   ? "x"
+                : k % 3 == 1 ? "y"
+                             : "z",
+                largest);
+    }
+    return 0;
 }
 
 int symmetry_check(const description *d, const mesh *m, error *err)
@@ -93,7 +129,7 @@ int symmetry_check(const description *d, const mesh *m, error *err)
         for (int i = 0; i < cut; i++)
             check_shape(d, q, &b, &plane[which[i]]);
         if (cut)
-            check_motion(d, q, plane, which, cut);
+            TRY(check_motion(d, q, plane, which, cut, err));
     }
     return 0;
 }

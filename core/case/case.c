@@ -5,6 +5,8 @@
 
 #include <ctype.h>
 #include <stdarg.h>
+#include <lauxlib.h>
+
 #include <stdio.h>
 #include <string.h>
 
@@ -131,6 +133,24 @@ static void check_once(case_file *c)
     }
 }
 
+/* time = {...} declares nothing. */
+static void check_assigned(case_file *c)
+{
+    const char *kind;
+    int source, line;
+
+    for (int i = 0; (kind = declare_overwritten(c, i, &source, &line)); i++)
+        if (*kind) {
+            case_block *at = arena_alloc(&c->memory, 1, sizeof *at);
+
+            c->no_memory |= !at;
+            if (!at)
+                return;
+            *at = (case_block){.kind = kind, .ref = LUA_NOREF, .line = line, .file = c->source[source].file};
+            case_wrong(c, at, NULL, "%s = ... declares nothing; write %s { ... }, without =", kind, kind);
+        }
+}
+
 int case_load(case_file *c, const char *path, const char *const *set, int n_set, const volatile sig_atomic_t *stop,
               error *err)
 {
@@ -145,6 +165,7 @@ int case_load(case_file *c, const char *path, const char *const *set, int n_set,
     TRY(case_call(c, NULL, 0, 0, err));
     check_sets(c);
     check_once(c);
+    check_assigned(c);
     return 0;
 }
 

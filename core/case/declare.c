@@ -6,6 +6,7 @@
 
 #include <lauxlib.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -117,6 +118,8 @@ static int constructor(lua_State *l)
 
 static int set_title(lua_State *l)
 {
+    if (limits_case(l)->title)
+        return limits_raise(l, "case: the case has a title already, \"%.80s\"", limits_case(l)->title);
     limits_case(l)->title = keep(l, plain_text(l, 1, "case", "title", NAME_BYTES));
     return 0;
 }
@@ -130,7 +133,7 @@ static void push_set(lua_State *l, const case_set *s)
         lua_pushboolean(l, *s->value == 't');
     else if (type == LUA_TSTRING)
         lua_pushstring(l, s->value);
-    else if (type != LUA_TNUMBER || lua_stringtonumber(l, s->value) == 0)
+    else if (type != LUA_TNUMBER || lua_stringtonumber(l, s->value) == 0 || !isfinite(lua_tonumber(l, -1)))
         limits_raise(l, "--set %s=%.200s: expected %s, found \"%.200s\"; the default is %.60s", s->name, s->value,
                      type == LUA_TBOOLEAN  ? "true or false"
                      : type == LUA_TNUMBER ? "a number"
@@ -142,11 +145,19 @@ static int add_param(lua_State *l)
 {
     case_file *c = limits_case(l);
     const char *name = plain_text(l, 1, "param", "name", NAME_BYTES);
+    const int type = lua_type(l, 2);
     const char *doc = lua_isnoneornil(l, 3) ? "" : plain_text(l, 3, "param", "description", DOC_BYTES);
     case_param *p = &c->param[c->n_param];
 
     if (lua_isnone(l, 2))
         return limits_raise(l, "param: \"%s\" needs a default value", name);
+    if (!*name || (type != LUA_TNUMBER && type != LUA_TSTRING && type != LUA_TBOOLEAN) ||
+        (type == LUA_TNUMBER && !isfinite(lua_tonumber(l, 2))))
+        return limits_raise(
+            l,
+            "param: \"%s\" has %s as its default; expected a name, and a finite number, a string, true "
+            "or false",
+            name, luaL_tolstring(l, 2, NULL));
     if (c->n_param == CASE_MAX_SETS)
         return limits_raise(l, "more than %d parameters", CASE_MAX_SETS);
     for (int i = 0; i < c->n_param; i++)
@@ -217,4 +228,41 @@ void declare_open(lua_State *l)
     lua_setglobal(l, "include");
     lua_pushlightuserdata(l, (void *)&address_of_free);
     lua_setglobal(l, "free");
+}
+
+/* Line of "name = ..." in a text, or 0. */
+static int line_of_assignment(const char *text, const char *name)
+{
+    const size_t n = strlen(name);
+
+    for (int line = 1; text; line++) {
+        const char *s = text + strspn(text, " \t");
+
+        if (strncmp(s, name, n) == 0) {
+            s += n + strspn(s + n, " \t");
+            if (s[0] == '=' && s[1] != '=')
+                return line;
+        }
+        text = strchr(text, '\n');
+        text = text ? text + 1 : NULL;
+    }
+    return 0;
+}
+
+const char *declare_overwritten(const case_file *c, int i, int *source, int *line)
+{
+    int type;
+
+    *source = *line = 0;
+    if (i >= (int)(sizeof kinds / sizeof *kinds))
+        return NULL;
+    type = lua_getglobal(c->lua, kinds[i].kind);
+    lua_pop(c->lua, 1);
+    if (type != LUA_TTABLE && type != LUA_TSTRING && type != LUA_TNUMBER)
+        return "";
+    for (int k = 0; k < c->n_source && !*line; k++) {
+        *line = line_of_assignment(c->source[k].text, kinds[i].kind);
+        *source = *line ? k : 0;
+    }
+    return kinds[i].kind;
 }

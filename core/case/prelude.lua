@@ -71,13 +71,15 @@ local function check_keys(what, t, valid)
   end
 end
 
--- A length is positive, an exponent at least 1.
+-- A length is positive, an exponent from 1 to 50 (beyond, edges are sharper than the quadrature of surfaces sees).
 local function check_number(what, key, value)
   if value == nil then fail(format('%s: "%s" is missing', what, key)) end
   if type(value) ~= 'number' then fail(format('%s: "%s" must be a number, got a %s', what, key, type(value))) end
   if not (value < huge) then fail(format('%s: "%s" is %g; it must be finite', what, key, value)) end
   if key == 'exponent' or key == 'exponent_z' then
-    if value < 1 then fail(format('%s: "%s" is %g; it must be at least 1', what, key, value)) end
+    if value < 1 or value > 50 then
+      fail(format('%s: "%s" is %g; it must lie between 1 and 50 (sharp edges: rectangle{}, block{})', what, key, value))
+    end
   elseif value <= 0 then
     fail(format('%s: "%s" is %g; it must be positive', what, key, value))
   end

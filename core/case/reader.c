@@ -97,9 +97,9 @@ static void wrong_number(reader *r, const char *key, const char *doc, double low
 
     if (!isfinite(x))
         snprintf(must, sizeof must, "be a finite number");
-    else if (high >= 1e29 && low == 0)
+    else if (high >= 1e29 && low == 0 && x < low)
         snprintf(must, sizeof must, "not be negative");
-    else if (high >= 1e29 && low > 0 && low < 1e-200)
+    else if (high >= 1e29 && low > 0 && low < 1e-200 && x < low)
         snprintf(must, sizeof must, "be positive");
     else
         snprintf(must, sizeof must, "lie between %g and %g", low, high);

@@ -39,6 +39,9 @@ void library_open(lua_State *l);
 /* From now on a global that is not there is an error. */
 void library_close(lua_State *l);
 void declare_open(lua_State *l);
+/* After the case has run, kind i of block: its name if the case assigned to it instead of calling it (and where),
+ * "" if not, NULL behind the last kind. */
+const char *declare_overwritten(const case_file *c, int i, int *source, int *line);
 
 /* --- sandbox.c --- */
 

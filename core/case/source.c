@@ -52,6 +52,10 @@ int source_load(case_file *c, const char *path, error *err)
         return error_memory(err, path, 0);
     c->n_source++;
     snprintf(chunk, sizeof chunk, "@%s", path);
+    if (n >= 3 && memcmp(s, "\xef\xbb\xbf", 3) == 0) { /* as some editors begin a file */
+        s += 3;
+        n -= 3;
+    }
     status = luaL_loadbufferx(c->lua, s, n, chunk, "t");
     return status == LUA_OK ? 0 : limits_failure(c, status, err);
 }

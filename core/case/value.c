@@ -66,13 +66,29 @@ static int evaluate(const void *ctx, const double *x, double t, double *out, err
     return 0;
 }
 
+/* A component of the table on top of the stack that is a number but none that can be used; 0: none. */
+static int bad_number(lua_State *l, int n)
+{
+    for (int k = 1; lua_istable(l, -1) && k <= n; k++) {
+        int type = lua_rawgeti(l, -1, k), bad = type == LUA_TNUMBER && !isfinite(lua_tonumber(l, -1));
+
+        lua_pop(l, 1);
+        if (bad)
+            return k;
+    }
+    return 0;
+}
+
 static int expected(case_file *c, const case_block *b, const char *key, int n)
 {
     lua_State *l = c->lua;
+    int bad = bad_number(l, n);
 
     if (n == 1)
         case_wrong(c, b, key, "%s: \"%s\": expected a number or a function, got %s", b->kind, key,
                    lua_type(l, -1) == LUA_TNUMBER ? "a number that is not finite" : luaL_typename(l, -1));
+    else if (bad)
+        case_wrong(c, b, key, "%s: \"%s\": component %d is not a finite number", b->kind, key, bad);
     else
         case_wrong(c, b, key,
                    "%s: \"%s\": expected %d components in braces (numbers, functions or free) or a function that "

@@ -164,10 +164,54 @@ static void check_level(const description *d)
     }
 }
 
+/* A parameter that terms share, but that one of them was given another value of. */
+static void check_shared(const description *d)
+{
+    for (int i = 0; i < d->n_use; i++)
+        for (uint32_t k = 0; k < d->use[i].term->n_param; k++) {
+            const pf_param *q = &d->use[i].term->param[k], *other = NULL;
+            double a, b;
+
+            if (!(q->flags & PF_SHARED) || q->type != PF_T_REAL)
+                continue;
+            memcpy(&a, (const char *)d->use[i].params + q->offset, sizeof a);
+            for (int j = 0; j < i && !other; j++) {
+                other = describe_param(&d->use[j], q->name);
+                if (!other || other->type != PF_T_REAL || !(other->flags & PF_SHARED))
+                    continue;
+                memcpy(&b, (const char *)d->use[j].params + other->offset, sizeof b);
+                if (a != b) {
+                    warning_add(d->warnings,
+                                "\"%s\" is %g in %s.%s and %g in %s.%s: the same fluid has two; give it "
+                                "in fluid{} alone",
+                                q->name, b, d->use[j].plugin->d.name, d->use[j].term->name, a,
+                                d->use[i].plugin->d.name, d->use[i].term->name);
+                    return;
+                }
+            }
+        }
+}
+
+/* A body with a prescribed motion stands in a steady case. */
+static void check_motion(const description *d)
+{
+    for (int k = 0; !d->time.unsteady && k < d->n_body; k++)
+        if (d->body[k].motion == BODY_PRESCRIBED) {
+            warning_add(
+                d->warnings,
+                "%s:%d: particle %d has a prescribed motion, but the case is steady: it stays where it is, and "
+                "the velocity is that of its surface; add time {}, or say motion = \"fixed\"",
+                d->body[k].block->file, d->body[k].block->line, k);
+            return;
+        }
+}
+
 void describe_check_terms(const description *d)
 {
     if (d->incomplete)
         return;
+    check_shared(d);
+    check_motion(d);
     check_viscosity(d);
     check_density(d);
     if (d->c->n_error == 0 && d->n_line > 0) /* else that is what is wrong first */

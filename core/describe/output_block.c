@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A field that cannot be written, with what can. */
@@ -67,7 +68,8 @@ static int proper_name(description *d, reader *r, const char *key, const char **
     lua_State *l = d->c->lua;
 
     *name = NULL;
-    if (lua_type(l, -2) != LUA_TSTRING || !is_name(lua_tostring(l, -2))) {
+    if (lua_type(l, -2) != LUA_TSTRING || !is_name(lua_tostring(l, -2)) ||
+        strlen(lua_tostring(l, -2)) != lua_rawlen(l, -2)) {
         case_wrong(d->c, r->b, key,
                    "output: %s: every entry needs a name of its own (letters, digits, _), as in %s = "
                    "{ wake = {...} }",
@@ -142,6 +144,8 @@ static int read_line(description *d, const case_block *b, line_spec *q, int *ok,
     reader_required(&r, "from", from);
     reader_required(&r, "to", to);
     reader_close(&r);
+    if (from > 0 && to > 0 && memcmp(q->from, q->to, sizeof q->to) == 0)
+        case_wrong(d->c, b, q->name, "%s begins where it ends; a point is a probe", what);
     *ok = d->c->n_wrong == before;
     return 0;
 }
@@ -168,6 +172,17 @@ static int read_lines(description *d, reader *r, error *err)
     lua_pop(l, 1);
     SORT_BY_NAME(o->line, o->n_line)
     return 0;
+}
+
+/* Columns of bodies are p0.x, p1.x ... */
+static void check_name(const description *d, const case_block *b, const char *what, const char *name)
+{
+    char *end;
+
+    if (d->n_body && name && *name == 'p' && name[1] >= '0' && name[1] <= '9' &&
+        strtol(name + 1, &end, 10) < d->n_body && *end == 0)
+        case_wrong(d->c, b, what, "output: %s: \"%s\" is what results call a particle; take another name", what,
+                   name);
 }
 
 int describe_output(description *d, error *err)
@@ -197,6 +212,10 @@ int describe_output(description *d, error *err)
             if (o->force[i] && strcmp(o->force[i], o->force[k]) == 0)
                 case_wrong(d->c, r.b, "forces", "output: forces: \"%s\" stands there twice", o->force[i]);
     o->n_force = n;
+    for (int i = 0; i < n; i++)
+        check_name(d, r.b, "forces", o->force[i]);
+    for (int i = 0; i < o->n_probe; i++)
+        check_name(d, r.b, "probes", o->probe[i].name);
     reader_vector(&r, "about", "point that torques refer to", d->dim, o->about);
     reader_close(&r);
     return 0;

@@ -22,6 +22,7 @@ int lines_locate(run *r, error *err)
     ARENA_NEW(&r->memory, r->line_at, o->n_line + 1, err);
     for (int i = 0; i < o->n_line; i++) {
         const line_spec *q = &o->line[i];
+        int outside = 0;
 
         ARENA_NEW(&r->memory, r->line_at[i], q->n, err);
         for (int k = 0; k < q->n; k++) {
@@ -29,7 +30,13 @@ int lines_locate(run *r, error *err)
 
             point_of(q, k, x);
             r->line_at[i][k] = locate_point(&r->p->mesh, &r->p->grid, x);
+            outside += r->line_at[i][k].cell < 0;
         }
+        if (outside)
+            warning_add(&r->p->warnings,
+                        "%s:%d: output: line \"%s\": %d of its %d points lie outside of the mesh and "
+                        "stay empty",
+                        o->block->file, o->block->line, q->name, outside, q->n);
     }
     return 0;
 }

@@ -55,7 +55,7 @@ static void values_have_the_components_of_the_field(void **state)
         {"7 boundary \"left\" { u = 1 }", 3, {"bad.lua:7: ", "expected 2 components"}},
         {"7 boundary \"left\" { u = {1} }", 3, {"expected 2 components"}},
         {"7 boundary \"left\" { u = \"fast\" }", 3, {"expected 2 components"}},
-        {"7 boundary \"left\" { u = {0/0, 0} }", 3, {"bad.lua:7: ", "expected 2 components"}},
+        {"7 boundary \"left\" { u = {0/0, 0} }", 3, {"bad.lua:7: ", "component 1 is not a finite number"}},
         {"7 boundary \"left\" { u = {free, free} }", 3, {"nothing of \"u\" is prescribed"}},
         {"7 boundary \"left\" { u = {1, free} }", 0, {"ok"}},
         {"7 boundary \"left\" { u = function(x, y) return 1 end }", 3, {"must return 2 numbers, result 2 is nil"}},
