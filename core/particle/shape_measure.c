@@ -193,6 +193,20 @@ static int take(shape *s, const body_integral *b, arena *memory, error *err)
     return keep_surface(s, b, memory, err);
 }
 
+/* A level that depends on more than the place has no surface, and a search on it no end. */
+static int is_repeatable(const shape *s)
+{
+    for (int k = 0; k < 16; k++) {
+        double x[3] = {0};
+
+        for (int i = 0; i < s->dim; i++) /* spread over the box */
+            x[i] = s->half[i] * (2 * fmod(0.5 + k * (i == 0 ? 0.618034 : i == 1 ? 0.754878 : 0.569840), 1) - 1);
+        if (shape_level(s, x) != shape_level(s, x))
+            return 0;
+    }
+    return 1;
+}
+
 static int measure_distance(shape *s, arena *memory, error *err)
 {
     int fine = s->dim == 2 ? FINE_2D : FINE_3D;
@@ -202,6 +216,9 @@ static int measure_distance(shape *s, arena *memory, error *err)
 
     ARENA_NEW(memory, s->fault, 1, err);
     memset(s->centre, 0, sizeof s->centre);
+    if (!is_repeatable(s) && !shape_check(s, NULL))
+        return error_set(err, ERR_CASE,
+                         "distance gives two values at one point; it may depend on nothing but the point");
     TRY(implicit_rule_create(&rule, s->dim, err));
     s->accuracy = INFINITY;
     status = integrate(s, &rule, s->dim == 2 ? COARSE_2D : COARSE_3D, &coarser, err);

@@ -82,6 +82,33 @@ static void lines_of_a_case_say_what_is_meant(void **state)
     assert_bad_cases(list);
 }
 
+static void what_results_ask_for_is_there(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("run %s --quiet --out %s/o",
+                        put_file("mean.lua", "mesh { box = {{0,0},{1,1}}, cells = {3,3} }\n"
+                                             "fluid { density = 1, viscosity = 1 }\nterm 'continuity' {}\n"
+                                             "term 'momentum' {}\nboundary '*' { u = {0,0} }\n"
+                                             "results(function(r) return { m = r.mean.u[3] } end)\n"),
+                        scratch()),
+               3, "mean.lua:6: results: a field in r.mean has one number a component", "\"3\"");
+}
+
+/* A distance that is another one each time has no surface to look for. */
+static void a_distance_depends_on_the_place_alone(void **state)
+{
+    static const bad_case list[] = {
+        {SHARP FIXED(
+             10, "shape = body { half = {0.3, 0.3}, distance = function(x, y) return math.sqrt(x*x+y*y) - 0.2 + "
+                 "0.02 * math.random() end }, at = {1, 0.5}"),
+         3,
+         {"bad.lua:10: shape: distance gives two values at one point"}},
+    };
+
+    (void)state;
+    assert_bad_cases(list);
+}
+
 static void a_line_that_leaves_the_mesh_is_told(void **state)
 {
     (void)state;
@@ -101,6 +128,8 @@ int main(void)
         cmocka_unit_test(bodies_that_mean_something_else_are_doubted),
         cmocka_unit_test(motions_keep_to_the_symmetry),
         cmocka_unit_test(lines_of_a_case_say_what_is_meant),
+        cmocka_unit_test(what_results_ask_for_is_there),
+        cmocka_unit_test(a_distance_depends_on_the_place_alone),
         cmocka_unit_test(a_line_that_leaves_the_mesh_is_told),
     };
 
