@@ -32,10 +32,8 @@ static int no_such_name(lua_State *l)
     if (n > MOST_LISTED)
         luaL_addstring(&list, ", ...");
     luaL_pushresult(&list);
-    if (n == 0)
-        return luaL_error(l, "results: %s \"%s\"", begin, wanted);
     return luaL_error(l, "results: %s \"%s\"%s there are: %s", begin, wanted, *hint.s ? hint.s : ";",
-                      lua_tostring(l, -1));
+                      n ? lua_tostring(l, -1) : "none");
 }
 
 /* Lets the table on top complain about names that it has not. */
@@ -86,7 +84,7 @@ static void push_means(lua_State *l, const results_input *in)
             lua_pushnumber(l, in->mean[k].mean[i]);
             lua_rawseti(l, -2, i + 1);
         }
-        guard(l, "a field in r.mean has one number a component, and none is called");
+        guard(l, "r.mean has a list of components, without");
         lua_setfield(l, -2, in->mean[k].name);
     }
     guard(l, "r.mean has no field");

@@ -91,7 +91,7 @@ static void what_results_ask_for_is_there(void **state)
                                              "term 'momentum' {}\nboundary '*' { u = {0,0} }\n"
                                              "results(function(r) return { m = r.mean.u[3] } end)\n"),
                         scratch()),
-               3, "mean.lua:6: results: a field in r.mean has one number a component", "\"3\"");
+               3, "mean.lua:6: results: r.mean has a list of components, without \"3\"");
 }
 
 /* A distance that is another one each time has no surface to look for. */
