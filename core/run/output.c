@@ -189,6 +189,7 @@ void output_close(run *r)
         free(r->file[i]);
     free(r->file);
     free(r->file_time);
+    free(r->time);
     text_free(&r->results);
     arena_free(&r->memory);
     if (r->log_fd > 0)

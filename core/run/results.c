@@ -139,8 +139,15 @@ static int call_function(lua_State *l)
     lua_rawgeti(l, LUA_REGISTRYINDEX, case_find(k->c, "results", 0)->ref);
     push_input(l, k->in);
     lua_call(l, 1, 1);
-    if (k->json)
+    if (k->json) {
         results_put(l, k->c, k->json);
+    } else if (!lua_istable(l, -1) && !lua_isnil(l, -1)) { /* whatever the numbers are: no table of results */
+        text none = {0};
+
+        lua_pushboolean(l, 1);
+        lua_rawsetp(l, LUA_REGISTRYINDEX, &asked_wrongly);
+        results_put(l, k->c, &none);
+    }
     return 0;
 }
 

@@ -63,6 +63,8 @@ typedef struct run {
     float *node_share; /* [n_node] */
     int n_body_file;
     char **body_file;
+    int64_t n_time, time_room;
+    double *time;         /* [n_time] of the rows of tables, s */
     uint8_t *facet_count; /* [3 n_node] room for reactions of a boundary */
     struct located *probe_at, **line_at;
     int log_fd, warned, warned_singular, warned_order;

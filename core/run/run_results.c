@@ -18,10 +18,9 @@ static results_column column_of(const table *t, int c, const char *name, long fi
 static int gather_columns(const run *r, arena *memory, results_input *in, error *err)
 {
     const table *plain[] = {&r->forces, &r->probes}, *bodies = &r->particles;
-    const table *any = r->forces.n_column ? &r->forces : r->probes.n_column ? &r->probes : bodies;
     int n_body = r->p->bodies.n;
 
-    in->t = column_of(any, 0, NULL, 0, any == bodies && n_body ? n_body : 1);
+    in->t = (results_column){.first = r->time, .stride = 1, .n = (long)r->n_time};
     ARENA_NEW(memory, in->column, r->forces.n_column + r->probes.n_column + n_body * bodies->n_column + 1, err);
     for (int k = 0; k < 2; k++)
         for (int c = 1; c < plain[k]->n_column; c++)

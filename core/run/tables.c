@@ -3,6 +3,8 @@
  * forces.csv and probes.csv: a row a step. */
 #include "run/run.h"
 
+#include "base/list.h"
+
 #include "space/locate.h"
 
 #include <stdio.h>
@@ -245,9 +247,13 @@ int tables_add(run *r, double t, error *err)
 {
     const problem *p = r->p;
     const output_spec *o = &p->description.output;
-    double *row = malloc((size_t)(r->forces.n_column + r->probes.n_column + 1) * sizeof *row), *at = row;
-    int status = row ? 0 : error_memory(err, "tables", 0);
+    double *row, *at;
+    int status;
 
+    LIST_ROOM(r->time, r->n_time, &r->time_room, err);
+    r->time[r->n_time++] = t;
+    at = row = malloc((size_t)(r->forces.n_column + r->probes.n_column + 1) * sizeof *row);
+    status = row ? 0 : error_memory(err, "tables", 0);
     if (!status && o->n_force) {
         *at++ = t;
         for (int i = 0; i < o->n_force; i++)

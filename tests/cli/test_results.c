@@ -151,6 +151,32 @@ static void the_call_before_the_run_leaves_no_trace(void **state)
     assert_summary("\"results\": {\"a\": 900996}");
 }
 
+/* r.t has the times of all steps, with or without tables; what is wrong whatever the numbers are is told before. */
+static void times_are_there_without_tables_and_mistakes_come_early(void **state)
+{
+    static const char form[] =
+        "mesh { box = {{0,0},{1,1}}, cells = {3,3} }\nfluid { density = 1, viscosity = 0.1 }\n"
+        "term 'continuity' {}\nterm 'momentum' {}\nboundary '*' { u = {0,0} }\n"
+        "time { step = 0.1, stop = 0.3 }\n%s\n";
+    char text[1000];
+
+    (void)state;
+    snprintf(text, sizeof text, form, "results(function(r) return { n = #r.t, last = r.t[#r.t] } end)");
+    assert_ran(plugflow("run %s --quiet --out %s/o", put_file("t.lua", text), scratch()), 0, NULL);
+    assert_summary("\"n\": 3");
+    assert_summary("\"last\": 0.3");
+    snprintf(text, sizeof text, form, "results(function(r) return 5 end)");
+    assert_ran(plugflow("run %s --out %s/early", put_file("t.lua", text), scratch()), 3,
+               "t.lua:7: results: the function must return a table");
+    assert_ran(shell("test ! -e %s/early/run.jsonl || ! grep -q solve %s/early/run.jsonl", scratch(), scratch()), 0,
+               NULL);
+    snprintf(text, sizeof text, form, "exact { u = function(x, y) return x end }");
+    assert_ran(plugflow("run %s --out %s/early2", put_file("t.lua", text), scratch()), 3,
+               "t.lua:7: ", "must return 2 numbers");
+    assert_ran(shell("test ! -e %s/early2/run.jsonl || ! grep -q solve %s/early2/run.jsonl", scratch(), scratch()),
+               0, NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -160,6 +186,7 @@ int main(void)
         cmocka_unit_test(what_there_will_not_be_is_found_before_the_run),
         cmocka_unit_test(columns_of_bodies_and_norms_are_known_before_the_run),
         cmocka_unit_test(the_call_before_the_run_leaves_no_trace),
+        cmocka_unit_test(times_are_there_without_tables_and_mistakes_come_early),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
