@@ -207,3 +207,15 @@ int norms_mean(const run *r, int f, double *mean, error *err)
         mean[k] /= volume;
     return 0;
 }
+
+int norms_check(const problem *p, error *err)
+{
+    const description *d = &p->description;
+    double x[3] = {0}, v[VALUE_MAX];
+
+    memcpy(x, p->mesh.x, (size_t)p->mesh.dim * sizeof *x);
+    for (int f = 0; f < d->fields.n; f++)
+        if (d->has_exact[f])
+            TRY(value_at(&d->exact[f], x, d->time.start, v, err));
+    return 0;
+}

@@ -333,19 +333,6 @@ static const char *status_of(int code)
                                   : "failed";
 }
 
-/* What is wrong with a function of exact{} is told before the run, not after it. */
-static int try_exact(const problem *p, error *err)
-{
-    const description *d = &p->description;
-    double x[3] = {0}, v[VALUE_MAX];
-
-    memcpy(x, p->mesh.x, (size_t)p->mesh.dim * sizeof *x);
-    for (int f = 0; f < d->fields.n; f++)
-        if (d->has_exact[f])
-            TRY(value_at(&d->exact[f], x, d->time.start, v, err));
-    return 0;
-}
-
 static int prepare(run *r, error *err)
 {
     problem *p = r->p;
@@ -357,7 +344,7 @@ static int prepare(run *r, error *err)
     r->stepper->order = p->description.time.order;
     r->stepper->geometry_iterations = p->description.time.geometry_iterations;
     memcpy(r->x, p->state.x, (size_t)p->space.n_dof * sizeof *r->x);
-    TRY(try_exact(p, err));
+    TRY(norms_check(p, err));
     TRY(output_open(r, err));
     TRY(log_start(r, err));
     return tell_warnings(r, err);

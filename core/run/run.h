@@ -118,6 +118,8 @@ int particles_outline(run *r, error *err);         /* a .vtp for the file of fie
 int output_summary(run *r, error *err);
 void output_close(run *r);
 
+/* What is wrong with a function of exact{}, found at the start and not after the run. */
+int norms_check(const problem *p, error *err);
 /* |u_h - u|, |grad(u_h - u)|, |u| in L2 for a field whose exact solution the case gives. */
 int norms_of_error(const run *r, int field, double t, double *l2, double *h1, double *exact, error *err);
 /* Mean of each component over the domain: of a field of the fluid only over the fluid, and bodies that move it
