@@ -135,11 +135,14 @@ static void falling_disk_agrees_on_fine_meshes(void **state)
 }
 
 /* ten Cate et al. 2002, case E4: 0.12224 m/s in the experiment. */
+/* With the step of 25 ms that the sharp formulation takes, this one is 5.4 % slow. */
 static void a_settling_sphere_agrees_with_the_experiment(void **state)
 {
     (void)state;
     assert_ran(
-        plugflow("run cases/settling_sphere.lua --quiet --set formulation=conservative --out %s/settle", scratch()),
+        plugflow(
+            "run cases/settling_sphere.lua --quiet --set formulation=conservative --set dt=0.0125 --out %s/settle",
+            scratch()),
         0, NULL);
     print_message("# settling sphere, E4, 4 cells per diameter: largest speed %.5f m/s, %.4f of the experiment's\n",
                   summary("settle", "results.speed_max"), summary("settle", "results.ratio"));
