@@ -148,7 +148,7 @@ enum placement_change {
 
 /* Refuses placements at the start that cannot be (places.c): what is wrong is collected in the case, doubtful ones
  * are warnings.  The mesh has its periodic boundaries; of a box without a map one cell is enough.  ERR_MEMORY. */
-int bodies_check_places(const description *d, const mesh *m, error *err);
+int bodies_check_places(const description *d, const mesh *m, const cell_grid *grid, error *err);
 /* Finds what stays, and places the bodies where they start. */
 int bodies_create(bodies *b, const description *d, space *s, const cell_grid *grid, const conditions *c,
                   warning_list *w, error *err);

@@ -59,15 +59,12 @@ int share_weights(const bodies *b, placement *p, error *err)
 int share_integrals_create(bodies *b, error *err)
 {
     const space *s = b->space;
-    fe_rule rule;
 
-    TRY(fe_rule_cell(s->mesh->type, ASSEMBLE_CELL_DEGREE, &rule, err));
     for (int f = 0; f < s->n_field; f++) {
         if (s->field[f].n_comp != 1 || s->field[f].support != PF_ON_MESH)
             continue;
         ARENA_NEW(&b->memory, b->integral[f], s->n_dof, err);
-        for (int64_t e = 0; e < s->mesh->n_cell; e++)
-            space_integrate_basis(s, f, e, &rule, 1, b->integral[f]);
+        TRY(space_integrals(s, f, ASSEMBLE_CELL_DEGREE, b->integral[f], err));
     }
     return 0;
 }

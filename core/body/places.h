@@ -35,7 +35,7 @@ double outer_reach(const mesh *m, const outer_facet *f, const solid *b);
 
 /* What is wrong, with the lines of the case; errors are of memory. */
 int overlap_check(const description *d, const mesh *m, error *err);
-int within_check(const description *d, const mesh *m, error *err);
+int within_check(const description *d, const mesh *m, const cell_grid *grid, error *err);
 int symmetry_check(const description *d, const mesh *m, error *err);
 
 #endif

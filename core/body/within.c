@@ -18,7 +18,7 @@ typedef struct domain {
     double image[27][3];
     outer_facet *facet; /* [mesh->n_facet] by low[0] */
     double widest;      /* of a facet in x */
-    cell_grid cells;
+    const cell_grid *cells;
     int32_t *near; /* [n_cell] room for a search */
     int told, warned;
     arena memory;
@@ -35,7 +35,7 @@ static int open_domain(domain *o, error *err)
 {
     TRY(outer_facets(o->d, o->mesh, &o->memory, &o->facet, &o->widest, err));
     ARENA_NEW(&o->memory, o->near, o->mesh->n_cell, err);
-    return cell_grid_create(&o->cells, o->mesh, err);
+    return 0;
 }
 
 static int64_t first_facet(const domain *o, double low)
@@ -96,7 +96,7 @@ static int is_in_mesh(domain *o, const double *x)
 
         for (int k = 0; k < o->mesh->dim; k++)
             at[k] = x[k] + o->image[i][k];
-        n = cell_grid_ball(&o->cells, at, 1e-9 * (o->high[0] - o->low[0]), o->near);
+        n = cell_grid_ball(o->cells, at, 1e-9 * (o->high[0] - o->low[0]), o->near);
         for (int64_t e = 0; e < n; e++)
             if (locate_in_cell(o->mesh, o->near[e], at, xi) > 0)
                 return 1;
@@ -189,9 +189,9 @@ static void check_body(domain *o, int k)
     text_free(&list);
 }
 
-int within_check(const description *d, const mesh *m, error *err)
+int within_check(const description *d, const mesh *m, const cell_grid *grid, error *err)
 {
-    domain o = {.d = d, .mesh = m};
+    domain o = {.d = d, .mesh = m, .cells = grid};
     int status;
 
     describe_bounds(m, o.low, o.high);
@@ -203,7 +203,6 @@ int within_check(const description *d, const mesh *m, error *err)
         case_wrong(d->c, NULL, NULL, "%d more bodies reach out of the mesh", o.told - PLACES_MOST_TOLD);
     if (o.warned > PLACES_MOST_TOLD)
         warning_add(d->warnings, "%d more fixed bodies reach out of the mesh", o.warned - PLACES_MOST_TOLD);
-    cell_grid_destroy(&o.cells);
     arena_free(&o.memory);
     return status;
 }

@@ -32,6 +32,7 @@ static int check_places_in_box(const description *d, error *err)
 {
     mesh_box box = d->mesh.box;
     mesh m = {0};
+    cell_grid grid = {0};
     error ignored;
     int status;
 
@@ -45,8 +46,11 @@ static int check_places_in_box(const description *d, error *err)
     status = mesh_create_box(&box, &m, err);
     if (!status)
         status = mesh_measure(&m, err);
+    if (!status)
+        status = cell_grid_create(&grid, &m, err);
     if (!status && !make_periodic(d, &m, &ignored)) /* else the mesh itself will say so */
-        status = bodies_check_places(d, &m, err);
+        status = bodies_check_places(d, &m, &grid, err);
+    cell_grid_destroy(&grid);
     mesh_destroy(&m);
     return status;
 }
@@ -131,7 +135,7 @@ int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *e
     TRY(make_periodic(d, &p->mesh, err));
     TRY(cell_grid_create(&p->grid, &p->mesh, err));
     if (!describe_is_box(d)) {
-        TRY(bodies_check_places(d, &p->mesh, err));
+        TRY(bodies_check_places(d, &p->mesh, &p->grid, err));
         TRY(case_finish(c, err));
     }
     TRY(space_number(&p->space, &d->fields, &p->mesh, d->n_body, err));

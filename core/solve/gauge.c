@@ -15,17 +15,6 @@
 
 #define ROUND_OFF 1e-9
 
-/* Integral of each basis function of a field over whole cells. */
-static int whole_cells(const space *s, int field, double *weight, error *err)
-{
-    fe_rule rule;
-
-    TRY(fe_rule_cell(s->mesh->type, ASSEMBLE_CELL_DEGREE, &rule, err));
-    for (int64_t e = 0; e < s->mesh->n_cell; e++)
-        space_integrate_basis(s, field, e, &rule, 1, weight);
-    return 0;
-}
-
 /* The weights in use: over the fluid where bodies are, else over whole cells. */
 static const double *weights(const gauge *g, int f)
 {
@@ -99,7 +88,7 @@ int gauge_detect(newton_system *s, int *changed, error *err)
         g->pin[f] = is_free ? first_row(s, f) : -1;
         if (is_free && !g->whole[f]) {
             ARENA_NEW(&s->memory, g->whole[f], sp->n_dof, err);
-            TRY(whole_cells(sp, f, g->whole[f], err));
+            TRY(space_integrals(sp, f, ASSEMBLE_CELL_DEGREE, g->whole[f], err));
         }
     }
     return 0;

@@ -72,3 +72,13 @@ void space_integrate_basis(const space *s, int field, int64_t cell, const fe_rul
         }
     }
 }
+
+int space_integrals(const space *s, int field, int degree, double *integral, error *err)
+{
+    fe_rule rule;
+
+    TRY(fe_rule_cell(s->mesh->type, degree, &rule, err));
+    for (int64_t e = 0; e < s->mesh->n_cell; e++)
+        space_integrate_basis(s, field, e, &rule, 1, integral);
+    return 0;
+}

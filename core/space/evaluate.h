@@ -23,5 +23,7 @@ void space_evaluate(const space *s, int field, const double *x, int64_t cell, co
  * cell, to integral[n_dof]. */
 void space_integrate_basis(const space *s, int field, int64_t cell, const fe_rule *rule, double factor,
                            double *integral);
+/* The same over all cells, by the rule of this degree (fe_rule_cell), to integral[n_dof] that is zero before. */
+int space_integrals(const space *s, int field, int degree, double *integral, error *err);
 
 #endif
