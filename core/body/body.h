@@ -87,22 +87,25 @@ typedef struct envelope {
     arena memory;
 } envelope;
 
+enum { PATHS_MAX_LEVELS = 3 };
+
 /* A body's image now and at the levels of history (paths.c). */
 typedef struct moving_body {
     solid here;
     int moves;
-    double way[2][3];     /* of its centre since then */
-    double then[2][3][3]; /* its axes then            */
+    double way[PATHS_MAX_LEVELS][3];     /* of its centre since then */
+    double then[PATHS_MAX_LEVELS][3][3]; /* its axes then            */
 } moving_body;
 
 typedef struct body_paths {
     moving_frame frame;
     int levels;
-    double c[2];        /* coefficients of the time scheme            */
-    const double *u[2]; /* unknowns of the levels                     */
+    double c[PATHS_MAX_LEVELS];        /* coefficients of the time scheme            */
+    const double *u[PATHS_MAX_LEVELS]; /* unknowns of the levels                     */
     int n;
     moving_body *body; /* [n_body * n_image] */
     uint8_t *cell;     /* [n_cell] near one that moves */
+    uint8_t *seen; /* [n_carrier] of the last extrapolation: 1 a node near a body that moves, 2 on a path */
 } body_paths;
 
 typedef struct bodies {
@@ -205,6 +208,10 @@ enum too_far bodies_too_far(const bodies *b, const pose *from, const pose *to, c
  * at then[l].  NULL: all history stays at its place.  Valid until the next call. */
 const moving_frame *bodies_paths(bodies *b, const placement *now, int levels, const double *c,
                                  const double *const *u, const pose *const *then, const double *history);
+/* The fields of the fluid that have history extrapolated to now, sum over levels of c[l] u[l], along the same paths:
+ * into x [n_dof] at the nodes near bodies that move; elsewhere x stays. */
+void bodies_extrapolate(bodies *b, const placement *now, int levels, const double *c, const double *const *u,
+                        const pose *const *then, double *x);
 
 /* --- between the files of this folder --- */
 

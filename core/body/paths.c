@@ -113,11 +113,11 @@ static int find_surface(const moving_body *b, double h, double *x)
 }
 
 /* Where the path through x was at each level: x - way; 0: it rests. */
-static int find_path(const body_paths *t, const double *x, double reach, double way[2][3])
+static int find_path(const body_paths *t, const double *x, double reach, double way[PATHS_MAX_LEVELS][3])
 {
     int any = 0;
 
-    memset(way, 0, 6 * sizeof way[0][0]);
+    memset(way, 0, PATHS_MAX_LEVELS * sizeof *way);
     for (const moving_body *b = t->body; b < t->body + t->n; b++) {
         double s = b->moves ? share(t, b, x, reach) : 0, d[3];
 
@@ -133,7 +133,7 @@ static int find_path(const body_paths *t, const double *x, double reach, double 
 
 /* Cells where a path through x was.  One that leaves the mesh has to be shortened: returns by which factor, or
  * 0. */
-static double locate_path(const bodies *p, const double *x, double way[2][3], located *foot)
+static double locate_path(const bodies *p, const double *x, double way[PATHS_MAX_LEVELS][3], located *foot)
 {
     for (double part = 1; part > 0.05; part *= 0.5) {
         int outside = 0;
@@ -177,7 +177,7 @@ static int was_covered(const mesh *m, const moving_body *b, int l, const located
  * order: moves the foot there, off: from there to the foot.  But the history of a body that all but rests stays in
  * its cell, if there was fluid: it must cancel c_0 u, which is of that cell. */
 static void continue_fluid(const bodies *p, const moving_body *b, const double *x, double h, double part,
-                           double way[2][3], located *foot, double off[2][3])
+                           double way[PATHS_MAX_LEVELS][3], located *foot, double off[PATHS_MAX_LEVELS][3])
 {
     double from[3] = {x[0], x[1], x[2]};
     int found = -1;
@@ -211,7 +211,7 @@ static void continue_fluid(const bodies *p, const moving_body *b, const double *
 }
 
 /* sum_k c_k u^k at the feet, continued by `off` to first order. */
-static void history_of(const bodies *p, int f, const located *foot, double off[2][3], double *history)
+static void history_of(const bodies *p, int f, const located *foot, double off[PATHS_MAX_LEVELS][3], double *history)
 {
     const body_paths *t = &p->paths;
     int n = p->space->field[f].n_comp, dim = p->space->mesh->dim;
@@ -230,24 +230,32 @@ static void history_of(const bodies *p, int f, const located *foot, double off[2
     }
 }
 
+/* The body that moves in which x is, or NULL. */
+static const moving_body *is_below(const body_paths *t, const double *x)
+{
+    for (const moving_body *b = t->body; b < t->body + t->n; b++)
+        if (b->moves && away(b, x) < 0 && distance(b, x) == 0)
+            return b;
+    return NULL;
+}
+
 /* See moving_frame. */
 static int path_at(void *bodies_, int64_t cell, const double *x, double *w, double *history)
 {
     const bodies *p = bodies_;
     const body_paths *t = &p->paths;
-    double way[2][3], off[2][3] = {{0}}, h = p->space->mesh->h[cell], part;
-    located foot[2];
+    double way[PATHS_MAX_LEVELS][3], off[PATHS_MAX_LEVELS][3] = {{0}}, h = p->space->mesh->h[cell], part;
+    const moving_body *below;
+    located foot[PATHS_MAX_LEVELS];
 
     if (!t->cell[cell] || !find_path(t, x, REACH * h, way))
         return 0;
     part = locate_path(p, x, way, foot);
     if (part == 0)
         return 0;
-    for (const moving_body *b = t->body; b < t->body + t->n; b++)
-        if (b->moves && away(b, x) < 0 && distance(b, x) == 0) {
-            continue_fluid(p, b, x, h, part, way, foot, off);
-            break;
-        }
+    below = is_below(t, x);
+    if (below)
+        continue_fluid(p, below, x, h, part, way, foot, off);
     for (int k = 0; k < p->space->mesh->dim; k++) {
         w[k] = 0;
         for (int l = 0; l < t->levels; l++)
@@ -305,6 +313,7 @@ int paths_create(bodies *b, error *err)
 {
     ARENA_NEW(&b->memory, b->paths.body, b->n * b->n_image, err);
     ARENA_NEW(&b->memory, b->paths.cell, b->space->mesh->n_cell, err);
+    ARENA_NEW(&b->memory, b->paths.seen, b->space->n_carrier, err);
     b->paths.frame.fields = find_fields(b);
     b->paths.frame.cell = b->paths.cell;
     b->paths.frame.ctx = b;
@@ -312,14 +321,13 @@ int paths_create(bodies *b, error *err)
     return 0;
 }
 
-const moving_frame *bodies_paths(bodies *b, const placement *now, int levels, const double *c,
-                                 const double *const *u, const pose *const *then, const double *history)
+/* The bodies' images at these levels, and the cells near those that move; 0: there are none. */
+static int take_levels(bodies *b, const placement *now, int levels, const double *c, const double *const *u,
+                       const pose *const *then)
 {
     body_paths *t = &b->paths;
     int any = 0;
 
-    if (!t->frame.fields)
-        return NULL;
     place(b, now, levels, then);
     memset(t->cell, 0, (size_t)b->space->mesh->n_cell);
     for (int i = 0; i < t->n; i++) {
@@ -337,7 +345,58 @@ const moving_frame *bodies_paths(bodies *b, const placement *now, int levels, co
         t->c[l] = c[l];
         t->u[l] = u[l];
     }
+    return any;
+}
+
+const moving_frame *bodies_paths(bodies *b, const placement *now, int levels, const double *c,
+                                 const double *const *u, const pose *const *then, const double *history)
+{
+    body_paths *t = &b->paths;
+    int any;
+
+    if (!t->frame.fields)
+        return NULL;
+    any = take_levels(b, now, levels, c, u, then);
     t->frame.stamp++;
     t->frame.u = history;
     return any ? &t->frame : NULL;
+}
+
+/* Of one node; returns whether a path led to it. */
+static int extrapolate_node(bodies *b, int64_t cell, int32_t node, int32_t carrier, double *x)
+{
+    const space *s = b->space;
+    double at[3] = {0}, w[3], value[SPACE_MAX_FIELDS * VALUE_MAX], *v = value;
+
+    memcpy(at, s->mesh->x + (int64_t)node * s->mesh->dim, (size_t)s->mesh->dim * sizeof *at);
+    if (!path_at(b, cell, at, w, value))
+        return 0;
+    for (int f = 0; f < s->n_field; f++) {
+        int64_t d = s->first[f][carrier];
+
+        if (!(b->paths.frame.fields >> f & 1))
+            continue;
+        for (int a = 0; d >= 0 && a < s->field[f].n_comp; a++)
+            x[d + a] = v[a];
+        v += s->field[f].n_comp;
+    }
+    return 1;
+}
+
+void bodies_extrapolate(bodies *b, const placement *now, int levels, const double *c, const double *const *u,
+                        const pose *const *then, double *x)
+{
+    const mesh *m = b->space->mesh;
+    body_paths *t = &b->paths;
+
+    if (!t->frame.fields || !take_levels(b, now, levels, c, u, then))
+        return;
+    memset(t->seen, 0, (size_t)b->space->n_carrier);
+    for (int64_t k = 0; k < m->n_cell; k++)
+        for (int i = 0; t->cell[k] && i < m->type->n_node; i++) {
+            int32_t node = m->cell[k * m->type->n_node + i], carrier = space_master(b->space, node);
+
+            if (!t->seen[carrier])
+                t->seen[carrier] = extrapolate_node(b, k, node, carrier, x) ? 2 : 1;
+        }
 }

@@ -69,7 +69,9 @@ typedef struct time_spec {
     int unsteady;
     int order;               /* 1: BDF1, 2: BDF2                         */
     int geometry_iterations; /* how often bodies are placed anew in a step */
-    double step, start, stop;
+    double step, start, stop; /* with a tolerance step is the first one, 0: to be chosen */
+    double tolerance;         /* of steps that choose their length; 0: all are of length step */
+    double steady;            /* > 0: the run ends when the flow changes by less, see run/steady.c */
 } time_spec;
 
 typedef struct probe_spec {
@@ -86,7 +88,8 @@ typedef struct line_spec {
 /* output {}. */
 typedef struct output_spec {
     const case_block *block;
-    double every; /* time between two files of fields */
+    double every;        /* time between two files of fields */
+    double tables_every; /* time between two rows of tables; 0: a row a step */
     int n_field, field[TERM_MAX_FIELDS];
     int n_probe, n_line, n_force;
     probe_spec probe[DESCRIBE_MAX_PROBES];
@@ -100,6 +103,7 @@ typedef struct solve_spec {
     double tolerance; /* of Newton, per field */
     int max_iterations;
     double linear_tolerance; /* of GMRES with old factors; 0: factor every matrix */
+    double fall;             /* of a step in time, see newton_options */
     int n_continued;         /* parameters of terms that a steady case is continued in, */
     double *continued[DESCRIBE_MAX_CONTINUED], from[DESCRIBE_MAX_CONTINUED], to[DESCRIBE_MAX_CONTINUED];
 } solve_spec;

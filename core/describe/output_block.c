@@ -185,6 +185,32 @@ static void check_name(const description *d, const case_block *b, const char *wh
                    name);
 }
 
+/* Times between files of fields and between rows of tables. */
+static void read_every(description *d, reader *r)
+{
+    output_spec *o = &d->output;
+    const double length = d->time.stop - d->time.start, step = d->time.step;
+
+    o->every = 1;
+    if (d->time.tolerance > 0 && length > 0)
+        o->every = length / 20;
+    else if (d->time.unsteady && step > 0) /* about twenty files, after whole steps */
+        o->every = step * fmax(1, ceil(length / step / 20 - 1e-9));
+    reader_number(r, "every", "time between two files of fields, s", 1e-300, 1e300, &o->every);
+    reader_number(r, "tables_every", "time between two rows of the tables, s; else there is one a step", 1e-300, 1e300,
+                  &o->tables_every);
+    if (d->time.unsteady && d->time.tolerance == 0 && step > 0 && o->every < 1e-6 * step)
+        case_wrong(d->c, o->block, "every",
+                   "output: every = %g is much shorter than a step of %g; it must be at least "
+                   "a millionth of it",
+                   o->every, step);
+    if (d->time.tolerance > 0 && length > 0 && o->every < 1e-9 * length)
+        case_wrong(d->c, o->block, "every", "output: every = %g would make %.3g files", o->every, length / o->every);
+    if (d->time.unsteady && length > 0 && o->tables_every > 0 && o->tables_every < 1e-9 * length)
+        case_wrong(d->c, o->block, "tables_every", "output: tables_every = %g would make %.3g rows", o->tables_every,
+                   length / o->tables_every);
+}
+
 int describe_output(description *d, error *err)
 {
     output_spec *o = &d->output;
@@ -193,15 +219,7 @@ int describe_output(description *d, error *err)
 
     o->block = case_find(d->c, "output", 0);
     reader_open(&r, d->c, o->block, "output");
-    o->every = 1;
-    if (d->time.unsteady && d->time.step > 0) /* about twenty files, after whole steps */
-        o->every = d->time.step * fmax(1, ceil((d->time.stop - d->time.start) / d->time.step / 20 - 1e-9));
-    reader_number(&r, "every", "time between two files of fields, s", 1e-300, 1e300, &o->every);
-    if (d->time.unsteady && d->time.step > 0 && o->every < 1e-6 * d->time.step)
-        case_wrong(d->c, o->block, "every",
-                   "output: every = %g is much shorter than a step of %g; it must be at least "
-                   "a millionth of it",
-                   o->every, d->time.step);
+    read_every(d, &r);
     read_fields(d, &r);
     TRY(read_probes(d, &r, err));
     TRY(read_lines(d, &r, err));

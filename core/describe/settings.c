@@ -3,6 +3,8 @@
  * time{}, solve{}, initial{}, exact{} and offset{} of a case. */
 #include "describe/describe.h"
 
+#include <lua.h>
+
 #include <string.h>
 
 /* A field that lives on bodies: they say themselves how they start. */
@@ -46,17 +48,42 @@ static void check_time(description *d, const case_block *b, const time_spec *t)
     else if (t->step > length * (1 + 1e-9))
         case_wrong(d->c, b, "step", "time: step = %g is longer than the whole run, from start = %g to stop = %g",
                    t->step, t->start, t->stop);
-    else if (length / t->step > 1e9)
+    else if (t->step > 0 && length / t->step > 1e9)
         case_wrong(d->c, b, "step", "time: %.3g steps are too many; is the step (%g) right?", length / t->step,
                    t->step);
 }
+
+/* stop = T, or stop = "steady" with at_most = T.  1 if it is known then. */
+static int read_stop(description *d, reader *r)
+{
+    static const char *const word[] = {"steady", NULL};
+    time_spec *t = &d->time;
+    int which = 0, status;
+
+    if (reader_type(r, "stop") != LUA_TSTRING) {
+        status = reader_number(r, "stop", "time at which the run ends, s; or \"steady\"", -1e300, 1e300, &t->stop);
+        reader_required(r, "stop", status);
+        return status > 0;
+    }
+    t->steady = 1e-4;
+    reader_choice(r, "stop", "when the run ends", word, &which);
+    reader_number(r, "steady", "relative change of the flow within the time gone by at which it is steady", 1e-14, 1,
+                  &t->steady);
+    status = reader_number(r, "at_most", "time at which the run ends if the flow is not steady by then, s", -1e300,
+                           1e300, &t->stop);
+    reader_required(r, "at_most", status);
+    return status > 0;
+}
+
+/* Part of a run that the first of the steps that choose their length takes. */
+#define FIRST_STEP 1e-3
 
 static void read_time(description *d)
 {
     static const char *const scheme[] = {"bdf1", "bdf2", NULL};
     const case_block *b = case_find(d->c, "time", 0);
     time_spec *t = &d->time;
-    int order = 1, step, stop, start;
+    int order = 1, step, stop, start, tolerance;
     reader r;
 
     if (!b)
@@ -65,18 +92,25 @@ static void read_time(description *d)
     reader_open(&r, d->c, b, "time");
     reader_choice(&r, "scheme", "time scheme", scheme, &order);
     t->order = order + 1;
-    step = reader_number(&r, "step", "length of a time step, s", 1e-300, 1e300, &t->step);
-    stop = reader_number(&r, "stop", "time at which the run ends, s", -1e300, 1e300, &t->stop);
+    tolerance = reader_number(&r, "tolerance", "error of velocities that steps choose their length by, relative",
+                              1e-8, 0.5, &t->tolerance);
+    step = reader_number(&r, "step", "length of a time step (with a tolerance: of the first), s", 1e-300, 1e300,
+                         &t->step);
+    stop = read_stop(d, &r);
     start = reader_number(&r, "start", "time at which the run starts, s", -1e300, 1e300, &t->start);
     reader_integer(&r, "geometry_iterations",
                    "how often bodies are placed anew within a step, with the motion found", 0, 20,
                    &t->geometry_iterations);
-    reader_required(&r, "step", step);
-    reader_required(&r, "stop", stop);
+    if (tolerance == 0)
+        reader_required(&r, "step", step);
+    if (tolerance > 0 && t->order == 1)
+        case_wrong(d->c, b, "scheme", "time: steps choose their length (tolerance) with scheme = \"bdf2\" only");
     reader_close(&r);
-    if (step > 0 && stop > 0 && start >= 0)
+    if (step == 0 && tolerance > 0) /* short: it grows soon if it may */
+        t->step = FIRST_STEP * (t->stop - t->start);
+    if ((step > 0 || (step == 0 && tolerance > 0)) && stop && start >= 0)
         check_time(d, b, t);
-    else if (stop > 0 && start >= 0 && t->stop <= t->start)
+    else if (stop && start >= 0 && t->stop <= t->start)
         case_wrong(d->c, b, "stop", "time: stop = %g is not after start = %g", t->stop, t->start);
 }
 
@@ -124,15 +158,21 @@ static void read_continuation(description *d, reader *r)
     lua_pop(l, 1);
 }
 
+/* Newton's method in a time step stops when its residual is this part of the prediction's: what is left is then small
+ * against the error of the step, of which the prediction's is a few. */
+#define STEP_FALL 1e-3
+
 static void read_solve(description *d)
 {
     solve_spec *o = &d->solve;
     reader r;
 
-    *o = (solve_spec){.tolerance = 1e-11, .max_iterations = 25, .linear_tolerance = d->time.unsteady ? 1e-6 : 0};
+    *o = (solve_spec){.tolerance = 1e-11, .max_iterations = 25, .linear_tolerance = d->time.unsteady ? 1e-6 : 0,
+                        .fall = d->time.unsteady ? STEP_FALL : 0};
     reader_open(&r, d->c, case_find(d->c, "solve", 0), "solve");
-    reader_number(&r, "tolerance", "Newton stops when every field's residual is this small, relative", 1e-15, 0.1,
-                  &o->tolerance);
+    if (reader_number(&r, "tolerance", "Newton stops when every field's residual is this small, relative", 1e-15, 0.1,
+                      &o->tolerance) > 0)
+        o->fall = 0;
     reader_integer(&r, "max_iterations", "of Newton", 1, DESCRIBE_MAX_ITERATIONS, &o->max_iterations);
     reader_number(&r, "linear_tolerance", "of GMRES with old factors; 0: factor every matrix", 0, 0.1,
                   &o->linear_tolerance);

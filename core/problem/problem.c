@@ -146,6 +146,7 @@ int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *e
     TRY(make_system(p, r, err));
     plan_continuation(p);
     p->newton = (newton_options){.tolerance = d->solve.tolerance,
+                                 .fall = d->solve.fall,
                                  .max_iterations = d->solve.max_iterations,
                                  .linear_tolerance = d->solve.linear_tolerance};
     TRY(state_create(&p->state, p->space.n_dof, d->n_body, err));
@@ -177,7 +178,7 @@ int problem_initial(problem *p, error *err)
             memcpy(to + s->first[f][c], v, (size_t)s->field[f].n_comp * sizeof *v);
         }
     for (int k = 0; k < d->n_body; k++)
-        p->state.pose[k] = p->state.pose_before[k] = d->body[k].start;
+        p->state.pose[k] = p->state.pose_before[k] = p->state.pose_before2[k] = d->body[k].start;
     if (d->n_body) {
         TRY(bodies_start(&p->bodies, t, to, err));
         TRY(bodies_fill(&p->bodies, p->bodies.now, to, err));

@@ -101,11 +101,11 @@ int particles_write(run *r, double t, error *err)
         for (int i = 0; i < n_spin; i++)
             *at++ = w >= 0 ? r->x[w + i] : 0;
         for (int i = 0; i < dim; i++)
-            *at++ = u >= 0 ? -force[u + i] : 0;
+            *at++ = r->before_steps ? NAN : u >= 0 ? -force[u + i] : 0;
         for (int i = 0; i < n_spin; i++)
-            *at++ = w >= 0 ? -force[w + i] : 0;
+            *at++ = r->before_steps ? NAN : w >= 0 ? -force[w + i] : 0;
         for (int i = 0; i < dim; i++)
-            *at++ = u >= 0 ? -contact[u + i] : 0;
+            *at++ = r->before_steps ? NAN : u >= 0 ? -contact[u + i] : 0;
         *at = round(active[k]);
         TRY(table_add(&r->particles, row, err));
     }

@@ -10,6 +10,9 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Part of a run below which no step is short enough. */
+#define LEAST 1e-10
+
 static void say(const run *r, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 static void say(const run *r, const char *fmt, ...)
 {
@@ -50,7 +53,7 @@ static void tell_continuation(void *ctx, double s, int iterations, int converged
             iterations);
 }
 
-static int log_solve(run *r, double t, double dt, const newton_report *report, error *err)
+int run_log_solve(run *r, double t, double dt, const newton_report *report, error *err)
 {
     text s = {0};
     int status;
@@ -81,7 +84,7 @@ static int log_solve(run *r, double t, double dt, const newton_report *report, e
 }
 
 /* A warning if what flows in does not flow out. */
-static void warn_defect(run *r)
+void run_warn_defect(run *r)
 {
     problem *p = r->p;
     const gauge *g = &p->system.gauge;
@@ -104,7 +107,7 @@ static void warn_defect(run *r)
 }
 
 /* A warning, once, if the equations leave unknowns open. */
-static void warn_singular(run *r, const newton_report *report)
+void run_warn_singular(run *r, const newton_report *report)
 {
     if (report->singular && !r->warned_singular)
         warning_add(&r->p->warnings,
@@ -115,7 +118,7 @@ static void warn_singular(run *r, const newton_report *report)
 }
 
 /* A warning, once, if Newton's method converges as it does with a wrong matrix. */
-static void warn_order(run *r, const newton_report *report)
+void run_warn_order(run *r, const newton_report *report)
 {
     if (report->linear_only && !r->warned_order)
         warning_add(
@@ -127,7 +130,7 @@ static void warn_order(run *r, const newton_report *report)
 }
 
 /* Says and logs the warnings that have come since the last call. */
-static int tell_warnings(run *r, error *err)
+int run_tell_warnings(run *r, error *err)
 {
     const warning_list *w = &r->p->warnings;
 
@@ -150,7 +153,7 @@ static int tell_warnings(run *r, error *err)
 }
 
 /* r->x: the solution as it is shown. */
-static void take_solution(run *r)
+void run_take_solution(run *r)
 {
     memcpy(r->x, r->p->state.x, (size_t)r->p->space.n_dof * sizeof *r->x);
     gauge_zero_mean(&r->p->system, problem_points(r->p), r->x);
@@ -173,7 +176,7 @@ static int steady(run *r, const volatile sig_atomic_t *stop, error *err)
     r->result->newton_order = report.order;
     r->result->newton_ratio = report.ratio;
     r->result->steps = 1;
-    warn_order(r, &report);
+    run_warn_order(r, &report);
     if (!report.converged && stop && *stop) {
         r->result->status = "interrupted";
         return 0;
@@ -186,95 +189,20 @@ static int steady(run *r, const volatile sig_atomic_t *stop, error *err)
                          "continuation = { viscosity = "
                          "... } }), or make the case unsteady with time {}",
                          report.why);
-    warn_singular(r, &report);
+    run_warn_singular(r, &report);
     say(r, "  converged in %d iterations, observed order %.1f, |r| / |r_before|^2 = %.2g", report.iterations,
         report.order, report.ratio);
     if (p->bodies.n)
         TRY(bodies_fill(&p->bodies, p->bodies.now, p->state.x, err));
-    take_solution(r);
+    run_take_solution(r);
     TRY(stepper_steady(r->stepper, err));
-    TRY(log_solve(r, 0, 0, &report, err));
-    warn_defect(r);
+    TRY(run_log_solve(r, 0, 0, &report, err));
+    run_warn_defect(r);
     TRY(output_take(r, 0, err));
     TRY(tables_add(r, 0, err));
     TRY(particles_write(r, 0, err));
     TRY(output_fields(r, 0, err));
     return lines_write(r, 0, err);
-}
-
-static int one_step(run *r, double next, error *err)
-{
-    problem *p = r->p;
-    stepper *s = r->stepper;
-    const time_spec *time = &p->description.time;
-    run_progress progress;
-    int64_t before = p->state.newton_iterations;
-    int status = stepper_advance(s, next - p->state.t, err);
-
-    warn_order(r, &s->report);
-    TRY(status);
-    p->state.t = next; /* steps that were halved add up to it but for round-off */
-    r->result->steps++;
-    r->result->newton_iterations = (int)p->state.newton_iterations;
-    r->result->halved = (int)p->state.halved;
-    warn_singular(r, &s->report);
-    take_solution(r);
-    warn_defect(r);
-    TRY(tell_warnings(r, err));
-    TRY(log_solve(r, p->state.t, p->state.dt_previous, &s->report, err));
-    TRY(output_take(r, p->state.t, err));
-    TRY(tables_add(r, p->state.t, err));
-    TRY(particles_write(r, p->state.t, err));
-    progress = (run_progress){.step = r->result->steps,
-                              .steps = r->result->steps +
-                                       lround(ceil((time->stop - p->state.t) / time->step * (1 - 1e-12))),
-                              .t = p->state.t,
-                              .dt = p->state.dt_previous,
-                              .newton = (int)(p->state.newton_iterations - before),
-                              .residual = s->report.history[s->report.iterations]};
-    if (r->talk && r->talk->progress)
-        r->talk->progress(r->talk->ctx, &progress);
-    return 0;
-}
-
-/* Part of a step below which none is made: the one before or after is longer or shorter by it. */
-#define NEAR 0.01
-
-/* Steps of the given length, with one more wherever fields are due within a step. */
-static int march(run *r, const volatile sig_atomic_t *stop, error *err)
-{
-    problem *p = r->p;
-    const time_spec *time = &p->description.time;
-    const double every = p->description.output.every, slack = 1e-9 * time->step;
-    const long n = lround(ceil((time->stop - time->start) / time->step * (1 - 1e-12)));
-    long k = 1, files = 1;
-
-    TRY(output_take(r, time->start, err));
-    TRY(output_fields(r, time->start, err));
-    while (k <= n) {
-        double grid = k == n ? time->stop : time->start + (double)k * time->step;
-        double due = time->start + (double)files * every, near = k < n ? NEAR * time->step : 0;
-        double next = due < grid + near && fabs(due - grid) > slack ? due : grid;
-        int status = one_step(r, next, err);
-        error ignored;
-
-        if (status && r->taken > p->state.written) /* the last good state goes to disk */
-            output_fields(r, r->taken, &ignored);
-        TRY(status);
-        k += next >= grid - near;
-        if (p->state.t >= due - slack || k > n) {
-            while (time->start + (double)files * every <= p->state.t + slack)
-                files++;
-            TRY(output_fields(r, p->state.t, err));
-        }
-        if (stop && *stop) {
-            r->result->status = "interrupted";
-            if (p->state.t > p->state.written)
-                TRY(output_fields(r, p->state.t, err));
-            break;
-        }
-    }
-    return lines_write(r, p->state.t, err);
 }
 
 static int unsteady(run *r, const volatile sig_atomic_t *stop, error *err)
@@ -343,11 +271,14 @@ static int prepare(run *r, error *err)
     r->stepper->options = p->newton;
     r->stepper->order = p->description.time.order;
     r->stepper->geometry_iterations = p->description.time.geometry_iterations;
+    if (p->description.time.tolerance > 0)
+        stepper_adapt(r->stepper, p->description.time.tolerance, p->description.time.step,
+                      LEAST * (p->description.time.stop - p->description.time.start));
     memcpy(r->x, p->state.x, (size_t)p->space.n_dof * sizeof *r->x);
     TRY(norms_check(p, err));
     TRY(output_open(r, err));
     TRY(log_start(r, err));
-    return tell_warnings(r, err);
+    return run_tell_warnings(r, err);
 }
 
 int run_problem(problem *p, const char *dir, const run_talk *talk, const volatile sig_atomic_t *stop,
@@ -374,7 +305,7 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
             status = finish(&r, err);
         if (status)
             result->status = status_of(status);
-        if (tell_warnings(&r, status ? &later : err) && !status)
+        if (run_tell_warnings(&r, status ? &later : err) && !status)
             status = err->code;
         if (output_summary(&r, status ? &later : err) && !status)
             status = err->code;

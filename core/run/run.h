@@ -28,8 +28,10 @@ typedef struct run_talk {
 typedef struct run_result {
     const char *status; /* "ok", "interrupted", "not converged", ... */
     long steps;
-    int newton_iterations, last_newton, gmres_iterations, factorisations, halved;
+    int newton_iterations, last_newton, gmres_iterations, factorisations;
     double newton_order, newton_ratio;
+    int steady;    /* the run ended because the flow was */
+    double change; /* relative, see is_steady (march.c)  */
     double seconds_total, seconds_assemble, seconds_factor, seconds_solve, seconds_output, peak_bytes;
     int n_error;
     struct {
@@ -56,6 +58,7 @@ typedef struct run {
     const char *dir;
     const run_talk *talk;
     run_result *result;
+    int before_steps; /* rows are of the start: there are no reactions yet */
     double *x;    /* [n_dof] the solution, free fields with zero mean */
     double taken; /* its time: of the last step of the run, s */
     table forces, probes, particles;
@@ -84,6 +87,17 @@ typedef struct run {
     arena memory;
 } run;
 
+/* The steps of an unsteady run (march.c). */
+int march(run *r, const volatile sig_atomic_t *stop, error *err);
+/* What both kinds of runs do after a solution (run.c): a line of the log; warnings; r->x, the solution as it is
+ * shown. */
+int run_log_solve(run *r, double t, double dt, const newton_report *report, error *err);
+void run_warn_defect(run *r);
+void run_warn_singular(run *r, const newton_report *report);
+void run_warn_order(run *r, const newton_report *report);
+int run_tell_warnings(run *r, error *err);
+void run_take_solution(run *r);
+
 int output_open(run *r, error *err);
 /* The solution at time t as the files show it: r->shown, and where bodies are.  Before any of what follows. */
 int output_take(run *r, double t, error *err);
@@ -96,7 +110,9 @@ int output_components(const field_spec *f, const char *prefix, char (*name)[96])
 int output_has_columns(const field_spec *f);
 int tables_locate(run *r, error *err);            /* ERR_CASE if a probe lies outside the mesh */
 int tables_plan(run *r, text *units, error *err); /* columns and their units; no files yet */
-int tables_add(run *r, double t, error *err);     /* forces and probes, every step */
+int tables_add(run *r, double t, error *err);     /* a row of forces and probes */
+/* Rows of probes and particles at the start: no step has been made, there are no forces. */
+int tables_start(run *r, error *err);
 int lines_locate(run *r, error *err);
 int lines_write(run *r, double t, error *err);
 
@@ -113,7 +129,7 @@ int particles_plan(run *r, error *err);
 double particles_energy(const run *r); /* kinetic, J */
 /* |force on the fluid + force on the bodies| by the terms that couple them, over the sum of forces on bodies. */
 double particles_balance(const run *r);
-int particles_write(run *r, double t, error *err); /* particles.csv, every step          */
+int particles_write(run *r, double t, error *err); /* a row a body in particles.csv       */
 int particles_outline(run *r, error *err);         /* a .vtp for the file of fields just written */
 int output_summary(run *r, error *err);
 void output_close(run *r);

@@ -7,12 +7,15 @@
 #include <stdio.h>
 #include <string.h>
 
-static results_column column_of(const table *t, int c, const char *name, long first_row, long every)
+/* Every so many rows from the first: of n_time rows, those at the start before them are left out. */
+static results_column column_of(const run *r, const table *t, int c, const char *name, long first_row, long every)
 {
+    long skip = t->n_row - every * (long)r->n_time;
+
     return (results_column){.name = name,
-                            .first = t->row ? t->row + first_row * t->n_column + c : NULL,
+                            .first = t->row ? t->row + (skip + first_row) * t->n_column + c : NULL,
                             .stride = every * t->n_column,
-                            .n = t->n_row / every};
+                            .n = (long)r->n_time};
 }
 
 static int gather_columns(const run *r, arena *memory, results_input *in, error *err)
@@ -24,7 +27,7 @@ static int gather_columns(const run *r, arena *memory, results_input *in, error 
     ARENA_NEW(memory, in->column, r->forces.n_column + r->probes.n_column + n_body * bodies->n_column + 1, err);
     for (int k = 0; k < 2; k++)
         for (int c = 1; c < plain[k]->n_column; c++)
-            in->column[in->n_column++] = column_of(plain[k], c, plain[k]->column[c], 0, 1);
+            in->column[in->n_column++] = column_of(r, plain[k], c, plain[k]->column[c], 0, 1);
     for (int id = 0; id < n_body; id++) /* p<id>.<name>, from the third column on: t, id, ... */
         for (int c = 2; c < bodies->n_column; c++) {
             size_t n = strlen(bodies->column[c]) + 16;
@@ -32,7 +35,7 @@ static int gather_columns(const run *r, arena *memory, results_input *in, error 
 
             ARENA_NEW(memory, name, n, err);
             snprintf(name, n, "p%d.%s", id, bodies->column[c]);
-            in->column[in->n_column++] = column_of(bodies, c, name, id, n_body);
+            in->column[in->n_column++] = column_of(r, bodies, c, name, id, n_body);
         }
     return 0;
 }

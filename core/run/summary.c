@@ -30,6 +30,28 @@ static void take_figures(const run *r, run_result *q)
     q->peak_bytes = 1024.0 * (double)usage.ru_maxrss;
 }
 
+/* How often steps were repeated, and why. */
+static void add_steps(const problem *p, const run_result *q, text *t)
+{
+    const step_counts *n = &p->state.count;
+    const time_spec *time = &p->description.time;
+
+    number(t, "steps_halved", (double)n->halved);
+    if (p->bodies.n)
+        number(t, "steps_shortened", (double)n->shortened);
+    if (time->tolerance > 0)
+        text_add(t,
+                 ",\n  \"adaptive\": {\"accepted\": %lld, \"repeated\": {\"error\": %lld, \"newton\": %lld, "
+                 "\"geometry\": %lld}, \"rough\": %lld, \"jumps\": %lld}",
+                 (long long)n->steps, (long long)n->repeated, (long long)n->halved, (long long)n->shortened,
+                 (long long)n->rough, (long long)n->restarted);
+    if (time->steady > 0) {
+        text_add(t, ",\n  \"steady\": %s", q->steady ? "true" : "false");
+        number(t, "steady_change", q->change);
+        number(t, "stopped_at", p->state.t);
+    }
+}
+
 static void add_counts(const problem *p, const run_result *q, text *t)
 {
     const linear_stats *l = &p->system.linear.stats;
@@ -41,9 +63,7 @@ static void add_counts(const problem *p, const run_result *q, text *t)
     if (p->bodies.n)
         number(t, "particles", p->bodies.n);
     number(t, "steps", (double)q->steps);
-    number(t, "steps_halved", q->halved);
-    if (p->bodies.n)
-        number(t, "steps_shortened", (double)p->state.shortened);
+    add_steps(p, q, t);
     if (p->bodies.has_ties)
         number(t, "cuts_with_rootless_cells", (double)p->bodies.rootless);
     number(t, "newton_iterations", q->newton_iterations);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * forces.csv and probes.csv: a row a step. */
+ * forces.csv and probes.csv: a row a step, or one wherever they are due. */
 #include "run/run.h"
 
 #include "base/list.h"
@@ -243,44 +243,72 @@ static double *reaction(const run *r, int boundary, int f, const double *about, 
     return out;
 }
 
-int tables_add(run *r, double t, error *err)
+/* Values at the probes. */
+static int add_probes(run *r, double t, double *row, error *err)
 {
     const problem *p = r->p;
     const output_spec *o = &p->description.output;
-    double *row, *at;
-    int status;
+    double *at = row;
 
+    *at++ = t;
+    for (int i = 0; i < o->n_probe; i++) {
+        const body_place *in = inside_place(r, o->probe[i].x);
+
+        for (int f = 0; f < p->space.n_field; f++) {
+            if (!output_has_columns(&p->space.field[f]))
+                continue;
+            locate_value(&p->space, &r->probe_at[i], f, r->shown, at, NULL);
+            if (in)
+                inside_value(r, in, f, o->probe[i].x, at);
+            at += p->space.field[f].n_comp;
+        }
+        if (p->bodies.n)
+            *at++ = in ? in->body : -1;
+    }
+    return table_add(&r->probes, row, err);
+}
+
+static int add_forces(run *r, double t, double *row, error *err)
+{
+    const problem *p = r->p;
+    const output_spec *o = &p->description.output;
+    double *at = row;
+
+    *at++ = t;
+    for (int i = 0; i < o->n_force; i++)
+        for (int f = 0; f < p->space.n_field; f++)
+            if (p->space.field[f].reaction && p->space.field[f].support == PF_ON_MESH)
+                at = reaction(r, mesh_find_name(&p->mesh, o->force[i]), f, o->about, at);
+    return table_add(&r->forces, row, err);
+}
+
+int tables_add(run *r, double t, error *err)
+{
+    const output_spec *o = &r->p->description.output;
+    double *row = malloc((size_t)(r->forces.n_column + r->probes.n_column + 1) * sizeof *row);
+    int status = row ? 0 : error_memory(err, "tables", 0);
+
+    if (!status && o->n_force && !r->before_steps)
+        status = add_forces(r, t, row, err);
+    if (!status && o->n_probe)
+        status = add_probes(r, t, row, err);
+    free(row);
+    TRY(status);
+    if (r->before_steps)
+        return 0;
     LIST_ROOM(r->time, r->n_time, &r->time_room, err);
     r->time[r->n_time++] = t;
-    at = row = malloc((size_t)(r->forces.n_column + r->probes.n_column + 1) * sizeof *row);
-    status = row ? 0 : error_memory(err, "tables", 0);
-    if (!status && o->n_force) {
-        *at++ = t;
-        for (int i = 0; i < o->n_force; i++)
-            for (int f = 0; f < p->space.n_field; f++)
-                if (p->space.field[f].reaction && p->space.field[f].support == PF_ON_MESH)
-                    at = reaction(r, mesh_find_name(&p->mesh, o->force[i]), f, o->about, at);
-        status = table_add(&r->forces, row, err);
-    }
-    if (!status && o->n_probe) {
-        at = row;
-        *at++ = t;
-        for (int i = 0; i < o->n_probe; i++) {
-            const body_place *in = inside_place(r, o->probe[i].x);
+    return 0;
+}
 
-            for (int f = 0; f < p->space.n_field; f++) {
-                if (!output_has_columns(&p->space.field[f]))
-                    continue;
-                locate_value(&p->space, &r->probe_at[i], f, r->shown, at, NULL);
-                if (in)
-                    inside_value(r, in, f, o->probe[i].x, at);
-                at += p->space.field[f].n_comp;
-            }
-            if (p->bodies.n)
-                *at++ = in ? in->body : -1;
-        }
-        status = table_add(&r->probes, row, err);
-    }
-    free(row);
+int tables_start(run *r, error *err)
+{
+    int status;
+
+    r->before_steps = 1;
+    status = tables_add(r, r->p->description.time.start, err);
+    if (!status)
+        status = particles_write(r, r->p->description.time.start, err);
+    r->before_steps = 0;
     return status;
 }

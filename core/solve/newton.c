@@ -22,6 +22,9 @@
 #define LAST_STEP 1e-4
 /* A step of a linear problem leaves less of the residual than this, or the terms are not what their flags say. */
 #define LINEAR_FALL 1e-3
+/* Where Newton's method stops early, a correction with the factors there are is tried from this many times what is
+ * enough: it costs no matrix. */
+#define NEAR 50
 /* Residuals between which the order of convergence is observed for what it says about the matrix. */
 #define MOST  1e-2
 #define LEAST 1e-12
@@ -40,6 +43,7 @@ typedef struct iterate {
     int solved;                            /* the last linear system had this matrix                        */
     int retry;                             /* the last trial was refused by a term, see err                 */
     int linear;                            /* all terms are                                                 */
+    double enough, near;                   /* residual to go on to; from which one correction is tried      */
     double length[NEWTON_MAX_ITERATIONS];  /* of the step from iterate k                                    */
     double inexact[NEWTON_MAX_ITERATIONS]; /* residual that its linear solution left, relative to that of k */
 } iterate;
@@ -101,6 +105,15 @@ static int polish(iterate *it, double *change, error *err)
     return 0;
 }
 
+static double largest(int n, const double *v)
+{
+    double most = 0;
+
+    for (int i = 0; i < n; i++)
+        most = vector_worse(v[i], most);
+    return most;
+}
+
 /* The residual is small enough at iterate k: converged if the last step was small, too, and if the constants that
  * were taken out of the residual are still free with a matrix of near here. */
 static int settle(iterate *it, int k, error *err)
@@ -110,7 +123,7 @@ static int settle(iterate *it, int k, error *err)
     double change = r->history[k] > 0 && k > 0 ? scale_change(s, it->x, it->length[k - 1]) : 0;
     int changed = 0;
 
-    if (gauge_excess(s, it->scale) > it->o->tolerance && !(change <= LAST_STEP) && !it->linear &&
+    if (gauge_excess(s, it->scale) > it->enough && !(change <= LAST_STEP) && !it->linear &&
         it->matrix != MATRIX_HERE)
         TRY(form_matrix(it, &changed, err));
     if (changed) {
@@ -120,6 +133,10 @@ static int settle(iterate *it, int k, error *err)
     if (s->linear.factored && r->history[k] > 0)
         TRY(polish(it, &change, err));
     r->converged = change <= LAST_STEP || r->history[k] <= ROUND_OFF;
+    if (it->near > it->enough) { /* of the prediction nothing has been solved yet */
+        r->history[k] = largest(s->space->n_field, r->norm);
+        r->converged = r->converged || (k > 0 && r->history[k] <= it->enough);
+    }
     return 0;
 }
 
@@ -186,7 +203,7 @@ static int expects_more(const iterate *it, int k)
         return 0;
     if (k == 0)
         return it->s->last_iterations != 1;
-    return it->length[k - 1] == 1 && h[k] * (h[k] / h[k - 1]) * (h[k] / h[k - 1]) > it->o->tolerance;
+    return it->length[k - 1] == 1 && h[k] * (h[k] / h[k - 1]) * (h[k] / h[k - 1]) > it->enough;
 }
 
 /* One trial of the line search, at s->trial: *after = its merit, or NaN.  An error only if going on makes no sense.
@@ -277,6 +294,13 @@ static int advance(iterate *it, int k, error *err)
     return 0;
 }
 
+/* What to go on to, by the residual of the first iterate. */
+static void aim(iterate *it)
+{
+    it->enough = fmax(it->o->tolerance, it->o->fall * it->report->history[0]);
+    it->near = it->enough > it->o->tolerance ? NEAR * it->enough : it->enough;
+}
+
 /* Iterate k: done (*more = 0), or on to the next. */
 static int iterate_once(iterate *it, int k, int *more, error *err)
 {
@@ -290,7 +314,9 @@ static int iterate_once(iterate *it, int k, int *more, error *err)
         return explain_nan(s, it->time, it->x, err);
     if (s->talk)
         s->talk(s->talk_ctx, k, r->history[k], r->norm, k > 0 ? it->length[k - 1] : 0);
-    if (r->history[k] <= it->o->tolerance)
+    if (k == 0)
+        aim(it);
+    if (r->history[k] <= it->near)
         TRY(settle(it, k, err));
     if (r->converged)
         return 0;

@@ -76,6 +76,8 @@ enum { NEWTON_MAX_ITERATIONS = 50 };
 
 typedef struct newton_options {
     double tolerance; /* per field, relative to |J| |x|          */
+    double fall;      /* of a step in time: residual, relative to that of the prediction, that is small enough, too; 0:
+                       * none is */
     int max_iterations;
     double linear_tolerance; /* of GMRES; 0: factor every matrix  */
 } newton_options;

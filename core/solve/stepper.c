@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Time steps.  A step is tried on a copy of the state:
+ * From step to step: which are accepted, and what becomes of one that is not.
  *
- *     unknowns extrapolated and prescribed -> bodies placed where they will be -> Newton -> bodies moved by the
- * mean of old and new velocity.
- *
- * BDF2 needs two values to start from.  Its first step is Richardson's extrapolation of backward Euler,
- * 2 (two half steps) - (one step): of second order in velocity, pressure and reactions. */
+ * Steps of a given length: one that fails is done in two halves, at most six times.  Steps that choose their length
+ * (step_control.h): one that fails, or whose error is too large, is tried again, shorter, and the next ones grow
+ * again. */
 #include "solve/stepper.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -28,12 +27,13 @@ int stepper_create(stepper *p, newton_system *s, bodies *b, const conditions *c,
         TRY(state_create(&p->trial[i], now->n_dof, now->n_body, err));
     ARENA_NEW(&p->memory, p->history, n, err);
     ARENA_NEW(&p->memory, p->level, n, err);
+    ARENA_NEW(&p->memory, p->predicted, n, err);
     ARENA_NEW(&p->memory, p->idle, n, err);
     for (int i = 0; i < kinds; i++) {
         ARENA_NEW(&p->memory, p->reaction[i], n, err);
         ARENA_NEW(&p->memory, p->saved[i], n, err);
     }
-    return 0;
+    return measure_create(&p->measure, b, &p->memory, err);
 }
 
 void stepper_destroy(stepper *p)
@@ -50,178 +50,55 @@ int stepper_prescribe(const conditions *c, const bodies *b, double t, double *x,
     return bodies_prescribe(b, t, x, err);
 }
 
-static const body_points *points(const bodies *b)
+void stepper_adapt(stepper *p, double tolerance, double first, double least)
 {
-    return b->now ? &b->now->points : NULL;
-}
-
-/* Places the bodies; matrix, factors and unknowns follow. */
-static int place(stepper *p, const pose *at, double *x, error *err)
-{
-    enum placement_change change;
-
-    if (p->bodies->n == 0)
-        return 0;
-    TRY(bodies_place(p->bodies, at, &change, err));
-    if (change == PLACEMENT_PATTERN)
-        TRY(system_renew(p->system, err));
-    if (change != PLACEMENT_SAME)
-        linear_forget(&p->system->linear); /* the old factors know the old cells */
-    bodies_clear(p->bodies, p->bodies->now, x);
-    return 0;
-}
-
-/* All reactions at x, with free fields of zero mean. */
-static int react(stepper *p, newton_time time, const double *x, error *err)
-{
-    static const uint32_t only[REACTIONS] = {0, PF_FLUID_FORCE, ASSEMBLE_CONTACT, ASSEMBLE_COUPLING};
-
-    memcpy(p->level, x, (size_t)p->now->n_dof * sizeof *x);
-    gauge_zero_mean(p->system, time.bodies, p->level);
-    for (int i = 0; i < REACTIONS && p->reaction[i]; i++) {
-        time.only = only[i];
-        TRY(newton_residual(p->system, &time, p->level, p->reaction[i], err));
-    }
-    return 0;
+    p->tolerance = tolerance;
+    p->least = least;
+    p->now->control.next = first;
 }
 
 int stepper_steady(stepper *p, error *err)
 {
-    return react(p, (newton_time){.bodies = points(p->bodies)}, p->now->x, err);
-}
+    const body_points *at = p->bodies->now ? &p->bodies->now->points : NULL;
 
-/* Whether a step that carries bodies so far must be a shorter one; says so, of each kind once. */
-static int goes_too_far(stepper *p, const state *from, const state *to, double dt)
-{
-    char why[300];
-    enum too_far far = p->bodies->n ? bodies_too_far(p->bodies, from->pose, to->pose, why, sizeof why) : FAR_NOT;
-
-    if (!far)
-        return 0;
-    if (!p->said[far])
-        warning_add(p->bodies->warnings,
-                    "t = %.6g: a step of %.3g is too long and is shortened, as others may be: %s", from->t, dt,
-                    why);
-    p->said[far] = 1;
-    p->too_far = far;
-    snprintf(p->report.why, sizeof p->report.why, "%s", why);
-    return 1;
-}
-
-/* One BDF step of order 1 or 2 from a state to another. */
-static int step(stepper *p, const state *from, state *to, int order, double dt, int *converged, error *err)
-{
-    bdf b = bdf_of(order, dt, from->dt_previous);
-    newton_time time = {.t = from->t + dt, .dt = dt, .shift = b.shift, .history = p->history, .old = from->x};
-
-    *converged = 0;
-    p->too_far = FAR_NOT;
-    state_copy(to, from);
-    for (int64_t i = 0; i < from->n_dof; i++) {
-        p->history[i] = b.c[0] * from->x[i] + b.c[1] * from->before[i];
-        if (order == 2)
-            to->x[i] += b.ratio * (from->x[i] - from->before[i]);
-    }
-    TRY(stepper_prescribe(p->conditions, p->bodies, time.t, to->x, err));
-    for (int k = 0; k <= p->geometry_iterations; k++) { /* from the second on with the motion just found */
-        bodies_move(p->bodies, from->pose, dt, from->x, to->x, to->pose);
-        if (goes_too_far(p, from, to, dt))
-            return 0;
-        if (place(p, to->pose, to->x, err))
-            return error_prefix(err, "t = %.6g: ", time.t);
-        time.bodies = points(p->bodies);
-        if (p->bodies->n)
-            time.frame =
-                bodies_paths(p->bodies, p->bodies->now, order, b.c, (const double *[]){from->x, from->before},
-                             (const pose *[]){from->pose, from->pose_before}, p->history);
-        TRY(newton_solve(p->system, &time, &p->options, to->x, &p->report, err));
-        TRY(bodies_check(p->bodies, err)); /* paths asked for their levels */
-        p->now->newton_iterations += p->report.iterations;
-        if (!p->report.converged)
-            return 0;
-    }
-    bodies_move(p->bodies, from->pose, dt, from->x, to->x, to->pose);
-    if (goes_too_far(p, from, to, dt))
-        return 0;
-    *converged = 1;
-    if (p->bodies->n)
-        TRY(bodies_fill(p->bodies, p->bodies->now, to->x, err));
-    TRY(react(p, time, to->x, err));
-    memcpy(to->before, from->x, (size_t)from->n_dof * sizeof *to->before);
-    memcpy(to->pose_before, from->pose, (size_t)from->n_body * sizeof *to->pose);
-    to->t = time.t;
-    to->dt_previous = dt;
-    to->n_history = from->n_history + 1;
-    return 0;
-}
-
-/* 2 (two half steps) - (one step), into the first trial state. */
-static int start(stepper *p, double dt, int *converged, error *err)
-{
-    const state *from = p->now;
-    state *whole = &p->trial[0], *half = &p->trial[1], *full = &p->trial[2];
-    int64_t n = from->n_dof;
-
-    TRY(step(p, from, whole, 1, dt, converged, err));
-    if (!*converged)
-        return 0;
-    for (int i = 0; i < REACTIONS && p->reaction[i]; i++)
-        memcpy(p->saved[i], p->reaction[i], (size_t)n * sizeof **p->saved);
-    if (p->bodies->n)
-        memcpy(p->idle, p->bodies->now->idle, (size_t)n * sizeof *p->idle);
-    TRY(step(p, from, half, 1, dt / 2, converged, err));
-    if (*converged)
-        TRY(step(p, half, full, 1, dt / 2, converged, err));
-    if (!*converged)
-        return 0;
-    for (int64_t k = 0; k < n; k++) /* what was off in one of the two has no value there to extrapolate from */
-        whole->x[k] =
-            p->idle[k] || (p->bodies->n && p->bodies->now->idle[k]) ? full->x[k] : 2 * full->x[k] - whole->x[k];
-    for (int i = 0; i < REACTIONS && p->reaction[i]; i++)
-        for (int64_t k = 0; k < n; k++)
-            p->reaction[i][k] = 2 * p->reaction[i][k] - p->saved[i][k];
-    bodies_move(p->bodies, from->pose, dt, from->x, whole->x, whole->pose);
-    if (goes_too_far(p, from, whole, dt))
-        *converged = 0;
-    return p->bodies->n ? bodies_fill(p->bodies, p->bodies->now, whole->x, err) : 0;
+    return step_react(p, (newton_time){.bodies = at}, p->now->x, err);
 }
 
 /* The state reached becomes that of now; counts go on. */
 static void accept(stepper *p)
 {
-    int64_t iterations = p->now->newton_iterations, halved = p->now->halved, shortened = p->now->shortened;
-
+    p->trial[0].count = p->now->count;
+    p->trial[0].control = p->now->control;
     state_swap(p->now, &p->trial[0]);
-    p->now->newton_iterations = iterations;
-    p->now->halved = halved;
-    p->now->shortened = shortened;
-    p->now->steps++;
+    p->now->count.steps++;
+}
+
+static void count_failure(stepper *p, enum step_outcome outcome)
+{
+    p->now->count.halved += outcome == STEP_NEWTON;
+    p->now->count.shortened += outcome == STEP_TOO_FAR;
 }
 
 static int advance(stepper *p, double dt, int halvings, error *err)
 {
     const state *now = p->now;
-    int converged;
+    enum step_outcome outcome;
+    step_error e;
 
     /* BDF2 is stable for steps that grow by less than 1 + sqrt(2) */
     if (p->order == 2 && now->n_history > 0 && dt > 2.1 * now->dt_previous) {
         TRY(advance(p, dt / 2, halvings, err));
         return advance(p, dt / 2, halvings, err);
     }
-    if (p->order == 2 && now->n_history == 0)
-        TRY(start(p, dt, &converged, err));
-    else
-        TRY(step(p, now, &p->trial[0], p->order, dt, &converged, err));
-    if (converged) {
+    TRY(step_try(p, dt, &outcome, &e, NULL, err));
+    if (outcome == STEP_DONE) {
         accept(p);
         return 0;
     }
-    linear_forget(&p->system->linear);
     if (halvings == HALVINGS)
         return error_set(err, ERR_CONVERGE, "no convergence at t = %.6g with a step of %.3g, %d times halved: %s",
                          now->t, dt, HALVINGS, p->report.why);
-    p->now->halved += !p->too_far;
-    p->now->shortened += p->too_far != FAR_NOT;
+    count_failure(p, outcome);
     TRY(advance(p, dt / 2, halvings + 1, err));
     return advance(p, dt / 2, halvings + 1, err);
 }
@@ -229,4 +106,98 @@ static int advance(stepper *p, double dt, int halvings, error *err)
 int stepper_advance(stepper *p, double dt, error *err)
 {
     return advance(p, dt, 0, err);
+}
+
+/* --- steps that choose their length --- */
+
+/* Tries from one state, until one is accepted. */
+typedef struct tries {
+    int n;            /* failed so far                                       */
+    int flat;         /* of them in a row whose error did not fall with dt   */
+    int jumped;       /* the scheme starts anew                              */
+    int rough;        /* accepted with an error that shorter steps have, too */
+    double dt, error; /* of the last with an error                           */
+} tries;
+
+/* An error that falls with less than this power of dt is none of time: that falls with the third. */
+#define FLAT 1
+/* One that does not fall is a jump if it is this many times the tolerance; below that it is roughness. */
+#define JUMP 10
+enum { FLAT_JUMP = 5 };
+
+/* Whether the try with this error is accepted; else *dt is another length. */
+static int judge(stepper *p, tries *t, const step_error *e, double *dt)
+{
+    step_control *c = &p->now->control;
+
+    if (e->error <= fmax(1, c->floor) || t->jumped)
+        return 1;
+    t->flat = t->error > 0 && e->error > t->error * pow(*dt / t->dt, FLAT) ? t->flat + 1 : 0;
+    if (t->flat && e->whole < JUMP * p->tolerance) {
+        c->floor = 1.5 * e->error;
+        t->rough = 1;
+        p->now->count.rough++;
+        return 1;
+    }
+    if (t->flat >= FLAT_JUMP) { /* what was before it says nothing about what comes */
+        t->jumped = 1;
+        p->now->count.restarted++;
+        if (p->now->n_history == 0)
+            return 1;
+        p->now->n_history = 0;
+        return 0;
+    }
+    t->error = e->error;
+    t->dt = *dt;
+    *dt = t->flat ? *dt / 2 : control_shorten(e->error, *dt);
+    p->now->count.repeated++;
+    return 0;
+}
+
+/* A step of this length, or shorter, into the first trial state. */
+static int try_until_done(stepper *p, double *dt, tries *t, step_error *e, double *size, error *err)
+{
+    const step_control *c = &p->now->control;
+    enum step_outcome outcome;
+
+    for (;; t->n++) {
+        if (*dt < p->least)
+            return error_set(err, ERR_CONVERGE,
+                             "at t = %.6g no step is short enough: the last try, of %.3g, failed: %s", p->now->t, *dt,
+                             t->error > 0 ? "its error was too large" : p->report.why);
+        memcpy(size, c->scale, sizeof c->scale);
+        TRY(step_try(p, *dt, &outcome, e, size, err));
+        if (outcome == STEP_DONE && judge(p, t, e, dt))
+            return 0;
+        if (outcome != STEP_DONE) {
+            count_failure(p, outcome);
+            *dt *= outcome == STEP_NEWTON ? 0.5 : 0.7;
+        }
+    }
+}
+
+int stepper_advance_freely(stepper *p, double until, error *err)
+{
+    state *now = p->now;
+    step_control *c = &now->control;
+    double size[SPACE_MAX_FIELDS], wish = now->n_history > 0 ? fmin(c->next, 2 * now->dt_previous) : c->next;
+    double dt = control_land(now->t, wish, until);
+    step_error e = {-1, 0};
+    tries t = {0};
+
+    TRY(try_until_done(p, &dt, &t, &e, size, err));
+    memcpy(c->scale, size, sizeof size);
+    if (t.jumped)
+        c->n_past = 0;
+    if (e.error < 0 || t.jumped) { /* nothing is known yet: another one of the same length */
+        c->next = dt;
+        c->before = 0;
+    } else if (t.rough)
+        c->next = wish; /* as if it had not been tried shorter */
+    else
+        control_accept(c, e.error / fmax(1, c->floor), dt, t.n > 0);
+    c->floor *= 0.9;
+    accept(p);
+    measure_remember(&p->measure, p->now);
+    return 0;
 }

@@ -6,6 +6,8 @@
 
 #include "body/body.h"
 #include "solve/solve.h"
+#include "solve/step_control.h"
+#include "solve/step_measure.h"
 #include "state/state.h"
 
 /* Residuals of the step's own equations at its solution, of all rows [n_dof]: minus what holds the unknowns. */
@@ -26,24 +28,42 @@ typedef struct stepper {
     newton_options options;
     state *now;                                     /* of whom it is */
     state trial[3];                                 /* attempts */
-    double *history, *level;                        /* [n_dof] */
+    double *history, *level, *predicted;            /* [n_dof] */
     uint8_t *idle;                                  /* [n_dof] of the first of the steps that are extrapolated */
     double *reaction[REACTIONS], *saved[REACTIONS]; /* [n_dof]; without bodies only that of all terms */
     newton_report report;
+    double tolerance;      /* of steps that choose their length; 0: they do not */
+    double least;          /* no step is shorter than this, s */
+    step_measure measure;
     enum too_far too_far;   /* why the last step was refused before or after it was solved */
     int said[FAR_BODY + 1]; /* warnings given */
     arena memory;
 } stepper;
 
 int stepper_create(stepper *p, newton_system *s, bodies *b, const conditions *c, state *now, error *err);
+/* Steps choose their length from here on: the first is of length `first`, none is shorter than `least`. */
+void stepper_adapt(stepper *p, double tolerance, double first, double least);
 /* now goes from t to t + dt; a step that fails is halved, at most 6 times. */
 int stepper_advance(stepper *p, double dt, error *err);
+/* now goes on by one step of its own length, not beyond `until`. */
+int stepper_advance_freely(stepper *p, double until, error *err);
 /* Reactions of the steady solution now. */
 int stepper_steady(stepper *p, error *err);
 void stepper_destroy(stepper *p);
 
 /* Prescribed values at time t into x: boundaries and bodies. */
 int stepper_prescribe(const conditions *c, const bodies *b, double t, double *x, error *err);
+
+/* --- one step (step.c) --- */
+
+/* What became of the attempt at a step. */
+enum step_outcome { STEP_DONE, STEP_TOO_FAR, STEP_NEWTON };
+
+/* Tries a step of this length from `now` into the first trial state.  Unless size is NULL: error of a step that was
+ * done, and sizes of fields (measure_relative). */
+int step_try(stepper *p, double dt, enum step_outcome *outcome, step_error *e, double *size, error *err);
+/* All reactions at x, with free fields of zero mean. */
+int step_react(stepper *p, newton_time time, const double *x, error *err);
 
 /* --- coefficients (bdf.c) --- */
 

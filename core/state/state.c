@@ -15,15 +15,17 @@ static const struct member {
 } table[] = {
     {PER_STATE, offsetof(state, t), sizeof(double)},
     {PER_STATE, offsetof(state, dt_previous), sizeof(double)},
+    {PER_STATE, offsetof(state, dt_before), sizeof(double)},
     {PER_STATE, offsetof(state, n_history), sizeof(int64_t)},
     {PER_DOF, offsetof(state, x), sizeof(double)},
     {PER_DOF, offsetof(state, before), sizeof(double)},
+    {PER_DOF, offsetof(state, before2), sizeof(double)},
     {PER_BODY, offsetof(state, pose), sizeof(pose)},
     {PER_BODY, offsetof(state, pose_before), sizeof(pose)},
-    {PER_STATE, offsetof(state, steps), sizeof(int64_t)},
-    {PER_STATE, offsetof(state, halved), sizeof(int64_t)},
-    {PER_STATE, offsetof(state, shortened), sizeof(int64_t)},
-    {PER_STATE, offsetof(state, newton_iterations), sizeof(int64_t)},
+    {PER_BODY, offsetof(state, pose_before2), sizeof(pose)},
+    {PER_STATE, offsetof(state, count), sizeof(step_counts)},
+    {PER_STATE, offsetof(state, control), sizeof(step_control)},
+    {PER_BODY, offsetof(state, past), sizeof(body_past)},
     {PER_STATE, offsetof(state, written), sizeof(double)},
 };
 

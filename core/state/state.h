@@ -11,17 +11,46 @@
 #include "base/error.h"
 #include "particle/particle.h"
 
+#include "space/space.h"
+
 #include <stdint.h>
 
-typedef struct state {
-    double t, dt_previous;    /* now, and the length of the last step, s                         */
-    int64_t n_history;        /* steps behind that a scheme may look back to                    */
-    int64_t n_dof, n_body;    /* sizes */
-    double *x, *before;       /* [n_dof] unknowns now and a step ago                             */
-    pose *pose, *pose_before; /* [n_body] of the bodies now and a step ago                       */
-    int64_t steps, halved;    /* steps of the scheme so far; how often one was repeated in halves */
-    int64_t shortened;        /* steps that would have carried a body too far */
+enum { STATE_PAST = 9 };
+
+/* Velocity and spin of a body at the last instants, latest first. */
+typedef struct body_past {
+    double motion[STATE_PAST][6];
+} body_past;
+
+/* What is remembered of the errors of steps, each over what is allowed; see solve/step_control.h. */
+typedef struct step_control {
+    double next;   /* length of the next step, s; 0: not known yet */
+    double before; /* error of the last step                       */
+    double floor;  /* error that no shorter step makes smaller     */
+    double scale[SPACE_MAX_FIELDS]; /* largest size of each field so far */
+    int64_t n_past;
+    double past[STATE_PAST]; /* instants that bodies' motion is remembered of, latest first, s */
+} step_control;
+
+typedef struct step_counts {
+    int64_t steps;     /* of the scheme so far */
+    int64_t halved;    /* repeated shorter because Newton did not converge                        */
+    int64_t shortened; /* repeated shorter because they would have carried a body too far         */
+    int64_t repeated;  /* repeated shorter because of their error                                 */
+    int64_t rough;     /* accepted with too large an error, as shorter ones had the same          */
+    int64_t restarted; /* at jumps, where the scheme started anew                                 */
     int64_t newton_iterations;
+} step_counts;
+
+typedef struct state {
+    double t, dt_previous, dt_before; /* now, and the lengths of the last step and of that before it, s */
+    int64_t n_history;                /* steps behind that a scheme may look back to                    */
+    int64_t n_dof, n_body;            /* sizes */
+    double *x, *before, *before2;     /* [n_dof] unknowns now, a step ago and two                        */
+    pose *pose, *pose_before, *pose_before2; /* [n_body] of the bodies */
+    step_counts count;
+    step_control control; /* of steps that choose their length */
+    body_past *past;      /* [n_body] */
     double written; /* time of the last file of fields, s */
     arena memory;
 } state;

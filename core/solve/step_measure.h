@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * step_measure.h -- how large the error of a time step is.
+ *
+ * BDF2 makes an error of 0.22 (dt/T)^3 a step in a flow that changes within T; those of T/dt steps add up.  So a step
+ * is allowed tolerance^(3/2): the sum is then about the tolerance.  The velocity of a body that moves forgets its
+ * errors, as the balance of its forces draws it back: there a step is allowed the tolerance itself. */
+#ifndef SOLVE_STEP_MEASURE_H
+#define SOLVE_STEP_MEASURE_H
+
+#include "body/body.h"
+#include "state/state.h"
+
+/* What errors are measured with. */
+typedef struct step_measure {
+    const space *space;
+    const bodies *bodies;
+    int moves;      /* some body does */
+    uint32_t rated; /* bit f: some term has du/dt of field f */
+    double *weight; /* [n_carrier] size of the cells at a node of the mesh */
+} step_measure;
+
+typedef struct step_error {
+    double error; /* over what is allowed; negative: not known yet */
+    double whole; /* Milne's, over the size of the fields          */
+} step_error;
+
+int measure_create(step_measure *m, const bodies *b, arena *memory, error *err);
+/* Largest difference x - from [n_dof] of a field with du/dt, over its size.  A field of the mesh is measured by its
+ * mean square over the nodes that are not off (idle, or NULL), one of bodies, in units of velocity, by its largest
+ * value.  size: of each field now, at least what it was; motion (or NULL): largest size of a velocity.  before (or
+ * NULL): unknowns a step ago; a field that changes fast has at least `many` times the size of its change, so that one
+ * that is about to grow from rest is not measured by the little that it is. */
+double measure_relative(const step_measure *m, const double *x, const double *from, const double *before, double many,
+                        const uint8_t *idle, double *size, double *motion);
+/* Relative error that a step may have. */
+double measure_allowed(const step_measure *m, double tolerance);
+/* Error of a step of BDF2 of length dt from a state with two steps behind it to x. */
+step_error measure_step(const step_measure *m, const state *from, double tolerance, double dt, const double *x,
+                        const double *predicted, const uint8_t *idle, double *size);
+/* Free velocities and spins of body k: v [6]. */
+void measure_motion(const step_measure *m, int k, const double *x, double *v);
+/* The bodies' motion at the end of a step goes to what is remembered of it. */
+void measure_remember(const step_measure *m, state *now);
+
+#endif
