@@ -257,6 +257,10 @@ double pairs_separation(const bodies *b, const double *x, const double *y, doubl
 int pairs_link(bodies *b, const pose *at, double drift, error *err);
 int pairs_find(const bodies *b, placement *p, error *err);
 int paths_create(bodies *b, error *err);
+/* The bodies' images at these levels, and the cells near those that move; 0: there are none. */
+int paths_take(bodies *b, const placement *now, int levels, const double *c, const double *const *u,
+               const pose *const *then);
+int paths_at(void *bodies_, int64_t cell, const double *x, double *w, double *history); /* see moving_frame */
 void placements_destroy(bodies *b);
 
 #endif

@@ -239,8 +239,7 @@ static const moving_body *is_below(const body_paths *t, const double *x)
     return NULL;
 }
 
-/* See moving_frame. */
-static int path_at(void *bodies_, int64_t cell, const double *x, double *w, double *history)
+int paths_at(void *bodies_, int64_t cell, const double *x, double *w, double *history)
 {
     const bodies *p = bodies_;
     const body_paths *t = &p->paths;
@@ -317,13 +316,12 @@ int paths_create(bodies *b, error *err)
     b->paths.frame.fields = find_fields(b);
     b->paths.frame.cell = b->paths.cell;
     b->paths.frame.ctx = b;
-    b->paths.frame.at = path_at;
+    b->paths.frame.at = paths_at;
     return 0;
 }
 
-/* The bodies' images at these levels, and the cells near those that move; 0: there are none. */
-static int take_levels(bodies *b, const placement *now, int levels, const double *c, const double *const *u,
-                       const pose *const *then)
+int paths_take(bodies *b, const placement *now, int levels, const double *c, const double *const *u,
+               const pose *const *then)
 {
     body_paths *t = &b->paths;
     int any = 0;
@@ -356,47 +354,8 @@ const moving_frame *bodies_paths(bodies *b, const placement *now, int levels, co
 
     if (!t->frame.fields)
         return NULL;
-    any = take_levels(b, now, levels, c, u, then);
+    any = paths_take(b, now, levels, c, u, then);
     t->frame.stamp++;
     t->frame.u = history;
     return any ? &t->frame : NULL;
-}
-
-/* Of one node; returns whether a path led to it. */
-static int extrapolate_node(bodies *b, int64_t cell, int32_t node, int32_t carrier, double *x)
-{
-    const space *s = b->space;
-    double at[3] = {0}, w[3], value[SPACE_MAX_FIELDS * VALUE_MAX], *v = value;
-
-    memcpy(at, s->mesh->x + (int64_t)node * s->mesh->dim, (size_t)s->mesh->dim * sizeof *at);
-    if (!path_at(b, cell, at, w, value))
-        return 0;
-    for (int f = 0; f < s->n_field; f++) {
-        int64_t d = s->first[f][carrier];
-
-        if (!(b->paths.frame.fields >> f & 1))
-            continue;
-        for (int a = 0; d >= 0 && a < s->field[f].n_comp; a++)
-            x[d + a] = v[a];
-        v += s->field[f].n_comp;
-    }
-    return 1;
-}
-
-void bodies_extrapolate(bodies *b, const placement *now, int levels, const double *c, const double *const *u,
-                        const pose *const *then, double *x)
-{
-    const mesh *m = b->space->mesh;
-    body_paths *t = &b->paths;
-
-    if (!t->frame.fields || !take_levels(b, now, levels, c, u, then))
-        return;
-    memset(t->seen, 0, (size_t)b->space->n_carrier);
-    for (int64_t k = 0; k < m->n_cell; k++)
-        for (int i = 0; t->cell[k] && i < m->type->n_node; i++) {
-            int32_t node = m->cell[k * m->type->n_node + i], carrier = space_master(b->space, node);
-
-            if (!t->seen[carrier])
-                t->seen[carrier] = extrapolate_node(b, k, node, carrier, x) ? 2 : 1;
-        }
 }

@@ -89,7 +89,7 @@ typedef struct run {
 
 /* The steps of an unsteady run (march.c). */
 int march(run *r, const volatile sig_atomic_t *stop, error *err);
-/* What both kinds of runs do after a solution (run.c): a line of the log; warnings; r->x, the solution as it is
+/* What both kinds of runs do after a solution (report.c): a line of the log; warnings; r->x, the solution as it is
  * shown. */
 int run_log_solve(run *r, double t, double dt, const newton_report *report, error *err);
 void run_warn_defect(run *r);

@@ -25,9 +25,6 @@
 /* Where Newton's method stops early, a correction with the factors there are is tried from this many times what is
  * enough: it costs no matrix. */
 #define NEAR 50
-/* Residuals between which the order of convergence is observed for what it says about the matrix. */
-#define MOST  1e-2
-#define LEAST 1e-12
 
 /* What s->linear.value holds: the matrix at x; at an iterate before; nothing that is of use. */
 enum matrix { MATRIX_HERE, MATRIX_OLD, MATRIX_LOST };
@@ -335,47 +332,6 @@ static int iterate_once(iterate *it, int k, int *more, error *err)
     return 0;
 }
 
-/* Order and ratio at the last iteration that is above round-off. */
-static void observe_order(newton_report *r)
-{
-    int k = r->iterations;
-
-    while (k > 1 && r->history[k] < 1e-14)
-        k--;
-    r->ratio = k >= 1 && r->history[k - 1] > 0 ? r->history[k] / (r->history[k - 1] * r->history[k - 1]) : 0;
-    if (k >= 2 && r->history[k - 1] < r->history[k - 2])
-        r->order = log(r->history[k] / r->history[k - 1]) / log(r->history[k - 1] / r->history[k - 2]);
-}
-
-/* With the true matrix Newton's method ends with order two.  Three orders near one in a row, up to the end, mean
- * another matrix; the report then has their mean.  Counted are whole steps that clearly made the residual fall (so
- * that neither the way to the solution nor round-off is taken for it), by much less than linear systems solved to a
- * tolerance allow, and only where all constants are free to round-off: what is taken out of the residual for one
- * that is not quite so no step foresees. */
-static void observe_linear(const iterate *it)
-{
-    enum { IN_A_ROW = 3 };
-    newton_report *r = it->report;
-    const double *h = r->history;
-    double sum = 0;
-    int k = r->iterations, n = 0;
-
-    while (k > 1 && h[k] < LEAST)
-        k--;
-    for (; k > 1 && n < IN_A_ROW && !it->s->gauge.approximate; k--, n++) {
-        double fall = h[k] / h[k - 1], before = h[k - 1] / h[k - 2], order = log(fall) / log(before);
-
-        if (h[k - 2] > MOST || it->length[k - 1] < 1 || it->length[k - 2] < 1 || !(fmax(fall, before) < 0.7) ||
-            fall < 10 * it->inexact[k - 1] || before < 10 * it->inexact[k - 2] || order > 1.3)
-            return;
-        sum += order;
-    }
-    if (n == IN_A_ROW) {
-        r->linear_only = 1;
-        r->order = sum / IN_A_ROW;
-    }
-}
-
 int newton_solve(newton_system *s, const newton_time *time, const newton_options *o, double *x,
                  newton_report *report, error *err)
 {
@@ -398,6 +354,7 @@ int newton_solve(newton_system *s, const newton_time *time, const newton_options
     }
     TRY(status);
     observe_order(report);
-    observe_linear(&it);
+    if (!s->gauge.approximate)
+        observe_linear(report, it.length, it.inexact);
     return 0;
 }

@@ -171,6 +171,12 @@ double scale_change(const newton_system *s, const double *x, double length);
 /* Bit f: the equations of field f depend on a field that has not converged and that does not depend on f. */
 uint32_t scale_waiting(const newton_system *s, const double *norm, double tolerance);
 
+/* observe.c.  Order and ratio at the last iteration that is above round-off. */
+void observe_order(newton_report *r);
+/* Whether it was one, as with a wrong matrix; not where a constant is free only nearly.  Of each step its length, and
+ * the part of the residual that its linear solution left. */
+void observe_linear(newton_report *r, const double *length, const double *inexact);
+
 /* explain.c.  Something is not finite at x: the error names who put it there (term and place, or the unknown). */
 int explain_nan(newton_system *s, const newton_time *time, const double *x, error *err);
 /* Whether the linear system that was handed over, matrix and s->rhs, is. */

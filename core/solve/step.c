@@ -13,6 +13,12 @@
 #include <stdio.h>
 #include <string.h>
 
+int stepper_prescribe(const conditions *c, const bodies *b, double t, double *x, error *err)
+{
+    TRY(conditions_apply(c, b->space, t, x, err));
+    return bodies_prescribe(b, t, x, err);
+}
+
 static const body_points *points(const bodies *b)
 {
     return b->now ? &b->now->points : NULL;

@@ -44,12 +44,6 @@ void stepper_destroy(stepper *p)
     memset(p, 0, sizeof *p);
 }
 
-int stepper_prescribe(const conditions *c, const bodies *b, double t, double *x, error *err)
-{
-    TRY(conditions_apply(c, b->space, t, x, err));
-    return bodies_prescribe(b, t, x, err);
-}
-
 void stepper_adapt(stepper *p, double tolerance, double first, double least)
 {
     p->tolerance = tolerance;
