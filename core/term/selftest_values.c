@@ -82,6 +82,8 @@ static void test_batches(bench *k)
         reverse(k->x + c * BENCH_LD);
         reverse(k->arm + c * BENCH_LD);
     }
+    for (int c = 0; k->metric && c < k->dim * k->dim; c++)
+        reverse(k->metric + c * BENCH_LD);
     reverse(k->h);
     reverse(k->density);
     if (!same_values(k, BENCH_LD))

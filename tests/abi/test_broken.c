@@ -92,8 +92,8 @@ static const struct CMUnitTest tests[] = {
     TOLD(undefined_symbol, "undefined_symbol.so cannot be loaded", "undefined symbol: a_function_that_nobody_has"),
 
     /* the description of the plugin */
-    TOLD(wrong_abi_major, "built for plugin interface 2.2, this plugflow has 1.2", "rebuild"),
-    TOLD(needs_newer_minor, "needs plugin interface 1.3 or later, this plugflow has 1.2", "update plugflow"),
+    TOLD(wrong_abi_major, "built for plugin interface 2.3, this plugflow has 1.3", "rebuild"),
+    TOLD(needs_newer_minor, "needs plugin interface 1.4 or later, this plugflow has 1.3", "update plugflow"),
     TOLD(plugin_too_small, "its pf_plugin has 40 bytes, at least", "set .size = sizeof(pf_plugin)"),
     TOLD(other_type_sizes, "built with other type sizes (0x40404, here 0x80808)"),
     TOLD(bad_plugin_name, "has no proper name"),
