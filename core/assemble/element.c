@@ -55,9 +55,14 @@ static int all_zero(const v8 *d, int n)
     return !any;
 }
 
+/* Test functions of one field and trial functions of another, by kind; -1: not used. */
+typedef struct basis_pair {
+    int test[BASIS_GRAD + 1], trial[BASIS_LAPLACE + 1];
+} basis_pair;
+
 /* Non-zero entries of D between component a of the rows and b of the columns: d[e][f]. */
-static int coefficients(const assembly_class *c, int row_field, int col_field, int a, int b, int dim,
-                        const workspace *w, const v8 *d[TEST_ROWS][BASIS_ROWS])
+static int coefficients(const assembly_class *c, const basis_pair *p, int a, int b, int dim, const workspace *w,
+                        const v8 *d[TEST_ROWS][BASIS_ROWS])
 {
     static const int first_row[] = {0, 1, LAPLACE_ROW};
     int any = 0;
@@ -65,8 +70,7 @@ static int coefficients(const assembly_class *c, int row_field, int col_field, i
     memset(d, 0, TEST_ROWS * sizeof d[0]);
     for (enum basis_kind ge = BASIS_VALUE; ge <= BASIS_GRAD; ge++)
         for (enum basis_kind gf = BASIS_VALUE; gf <= BASIS_LAPLACE; gf++) {
-            int t = find_basis(c->test, c->n_test, row_field, ge),
-                r = find_basis(c->trial, c->n_trial, col_field, gf);
+            int t = p->test[ge], r = p->trial[gf];
 
             if (t < 0 || r < 0 || c->block[t][r] == SIZE_MAX)
                 continue;
@@ -88,22 +92,23 @@ static int coefficients(const assembly_class *c, int row_field, int col_field, i
 /* g[e][j][q] = w sum_f D^{e f} B_j^f for three columns j. */
 static void strip(const v8 *d[TEST_ROWS][BASIS_ROWS], v8 *const *basis, int j0, int nq, int dim, const v8 *w, v8 *g)
 {
-    for (int e = 0; e <= dim; e++)
+    for (int e = 0; e <= dim; e++) {
+        int used[BASIS_ROWS], n = 0;
+
+        for (int f = 0; f < BASIS_ROWS; f++)
+            if (d[e][f])
+                used[n++] = f;
         for (int j = 0; j < 3; j++) {
             v8 *restrict to = g + (e * 3 + j) * nq;
-            int first = 1;
 
-            for (int f = 0; f < BASIS_ROWS; f++) {
-                const v8 *restrict de = d[e][f], *restrict b;
+            for (int k = 0; k < n; k++) {
+                const v8 *restrict de = d[e][used[k]], *restrict b = basis[used[k]] + (j0 + j) * nq;
 
-                if (!de)
-                    continue;
-                b = basis[f] + (j0 + j) * nq;
                 for (int q = 0; q < nq; q++)
-                    to[q] = first ? w[q] * de[q] * b[q] : to[q] + w[q] * de[q] * b[q];
-                first = 0;
+                    to[q] = k == 0 ? w[q] * de[q] * b[q] : to[q] + w[q] * de[q] * b[q];
             }
         }
+    }
 }
 
 /* A 3 x 3 tile of K: sum_e sum_q B_i^e g_j^e. */
@@ -137,14 +142,19 @@ int element_matrix(const assembly *as, const assembly_class *c, int row_field, i
     int dim = s->mesh->dim, nq = c->n_q, coupled = 0;
     int n_row = assemble_padded(c->n_basis[rf->order]);
     int n_col = assemble_padded(c->n_basis[cf->order]);
+    basis_pair p;
 
+    for (enum basis_kind e = BASIS_VALUE; e <= BASIS_GRAD; e++)
+        p.test[e] = find_basis(c->test, c->n_test, row_field, e);
+    for (enum basis_kind e = BASIS_VALUE; e <= BASIS_LAPLACE; e++)
+        p.trial[e] = find_basis(c->trial, c->n_trial, col_field, e);
     for (int a = 0; a < rf->n_comp; a++)
         for (int b = 0; b < cf->n_comp; b++) {
             v8 *k = w->mat + (a * cf->n_comp + b) * n_row * n_col;
             const v8 *d[TEST_ROWS][BASIS_ROWS];
             int row_used[TEST_ROWS];
 
-            if (!coefficients(c, row_field, col_field, a, b, dim, w, d)) {
+            if (!coefficients(c, &p, a, b, dim, w, d)) {
                 memset(k, 0, (size_t)(n_row * n_col) * sizeof *k);
                 continue;
             }

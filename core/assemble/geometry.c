@@ -134,6 +134,18 @@ static void take_nodes(const assembly *a, const assembly_class *c, int64_t batch
     }
 }
 
+/* Place of a point of a cell, and dxi/dx there. */
+static void map_point(const mesh *m, int64_t cell, const double *xi, double x[3], double inv[3][3])
+{
+    double j[3][3], det = mesh_place(m, cell, xi, x, j);
+
+    for (int b = 0; b < 3; b++)
+        for (int k = 0; k < 3; k++) /* j is the identity in the unused direction */
+            inv[b][k] = (j[(k + 1) % 3][(b + 1) % 3] * j[(k + 2) % 3][(b + 2) % 3] -
+                         j[(k + 1) % 3][(b + 2) % 3] * j[(k + 2) % 3][(b + 1) % 3]) /
+                        det;
+}
+
 /* Points that each item has of its own, on a piece of surface. */
 static void points_of_surface(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
 {
@@ -146,16 +158,9 @@ static void points_of_surface(const assembly *a, const assembly_class *c, int64_
 
         for (int q = 0; q < nq; q++) {
             const double *xi = c->ref[item * nq + q];
-            double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], x[3], j[3][3], inv[3][3];
-            double det;
+            double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], x[3], inv[3][3];
 
-            fe_basis(type, 2, xi, n, dn);
-            det = mesh_map(m, cell, n, (const double(*)[3])dn, x, j);
-            for (int b = 0; b < 3; b++)
-                for (int k = 0; k < 3; k++) /* j is the identity in the unused direction */
-                    inv[b][k] = (j[(k + 1) % 3][(b + 1) % 3] * j[(k + 2) % 3][(b + 2) % 3] -
-                                 j[(k + 1) % 3][(b + 2) % 3] * j[(k + 2) % 3][(b + 1) % 3]) /
-                                det;
+            map_point(m, cell, xi, x, inv);
             w->w[q][l] = c->weight[item * nq + q];
             w->h[q][l] = m->h[cell];
             for (int k = 0; k < dim; k++) {
@@ -191,14 +196,16 @@ static void second_on_surface(const assembly *a, const assembly_class *c, int64_
     take_nodes(a, c, batch, w);
     for (int l = 0; l < 8; l++)
         for (int q = 0; q < nq; q++) {
-            const double *xi = c->ref[assemble_item(c, batch, l) * nq + q];
-            double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], d2n[FE_MAX_NODES][FE_SECOND];
-            v8 j[3][3], inv[3][3];
+            int64_t item = assemble_item(c, batch, l);
+            const double *xi = c->ref[item * nq + q];
+            double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], d2n[FE_MAX_NODES][FE_SECOND], x[3], at[3][3];
+            v8 inv[3][3];
             laplacian p;
 
-            /* All lanes at the reference point of this one, whose result alone is kept. */
-            fe_basis(type, 2, xi, n, dn);
-            mapping(dim, type->n_node, w->x_node, (const double(*)[3])dn, j, inv);
+            /* All lanes as if they were at the point of this one, whose result alone is kept. */
+            map_point(m, c->cell[item], xi, x, at);
+            for (int k = 0; k < 9; k++)
+                inv[k / 3][k % 3] = (v8){0} + at[k / 3][k % 3];
             for (int k = 0; c->any_metric && k < dim * dim; k++)
                 w->metric[k * nq + q][l] = metric_of(dim, type->simplex, inv, k / dim, k % dim)[l];
             if (!c->any_laplace)

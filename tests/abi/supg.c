@@ -22,9 +22,10 @@ struct transport {
 static const pf_term galerkin = {
     PF_TERM(galerkin),
     .where = PF_FLUID,
-    .doc = "(u\\cdot\\nabla T-f)\\,s+k\\,\\nabla T\\cdot\\nabla s",
+    .doc = "(\\partial_t T+u\\cdot\\nabla T-f)\\,s+k\\,\\nabla T\\cdot\\nabla s",
     .cite = "Brooks, Hughes (1982)",
-    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"grad_T", "T", PF_GRAD, PF_VECTOR}, {"f", NULL, PF_DATA, PF_SCALAR}),
+    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"grad_T", "T", PF_GRAD, PF_VECTOR}, {"f", NULL, PF_DATA, PF_SCALAR},
+          {"T_t", "T", PF_DOT, PF_SCALAR}),
     PF_OUT({"s", "T", PF_VALUE, PF_SCALAR}, {"grad_s", "T", PF_GRAD, PF_VECTOR}),
     PF_PARAMS(struct transport, DIFFUSIVITY),
 };
@@ -33,16 +34,17 @@ static const pf_term supg = {
     PF_TERM(supg),
     .where = PF_FLUID,
     .flags = PF_METRIC,
-    .doc = "\\tau\\,(u\\cdot\\nabla T-k\\,\\Delta T-f)\\,u\\cdot\\nabla s",
+    .doc = "\\tau\\,(\\partial_t T+u\\cdot\\nabla T-k\\,\\Delta T-f)\\,u\\cdot\\nabla s",
     .cite = "Brooks, Hughes (1982); Bazilevs et al. (2007)",
     PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"grad_T", "T", PF_GRAD, PF_VECTOR},
-          {"lap_T", "T", PF_LAPLACE, PF_SCALAR}, {"f", NULL, PF_DATA, PF_SCALAR}),
+          {"lap_T", "T", PF_LAPLACE, PF_SCALAR}, {"f", NULL, PF_DATA, PF_SCALAR}, {"T_t", "T", PF_DOT, PF_SCALAR}),
     PF_OUT({"grad_s", "T", PF_GRAD, PF_VECTOR}),
     PF_PARAMS(struct transport, DIFFUSIVITY,
               PF_NUMBER(struct transport, constant, "1", "of the inverse estimate", .dflt = 36, PF_NOT_NEGATIVE)),
-    /* the metric of worked examples is (4 1; 1 2): u.Gu = 14, G:G = 22, so tau = 1/6; the residual is 1 - 2 - 5 */
-    PF_EXAMPLES({"u = (2, -1), grad T = (3, 5), lap T = 12, f = 5", 2, (double[]){1.0 / 6, 36},
-                 (double[]){2, -1, 3, 5, 12, 5}, (double[]){-2, 1}, 1e-14}),
+    /* the metric of worked examples is (4 1; 1 2): u.Gu = 14, G:G = 22, so tau = 1/6; the residual is 12 + 1 - 2 -
+       5 */
+    PF_EXAMPLES({"u = (2, -1), grad T = (3, 5), lap T = 12, f = 5, dT/dt = 12", 2, (double[]){1.0 / 6, 36},
+                 (double[]){2, -1, 3, 5, 12, 5, 12}, (double[]){2, -1}, 1e-14}),
 };
 
 static const pf_plugin plugin = {

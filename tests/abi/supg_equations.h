@@ -2,15 +2,15 @@
  *
  * Equations of supg.c, for real and for complex numbers. */
 
-/* (u . grad T - f) s + k grad T . grad s */
+/* (dT/dt + u . grad T - f) s + k grad T . grad s */
 static int F(galerkin)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct transport *t = b->params;
-    const NUM *restrict u = in[0], *restrict grad_T = in[1], *restrict f = in[2];
+    const NUM *restrict u = in[0], *restrict grad_T = in[1], *restrict f = in[2], *restrict T_t = in[3];
     NUM *restrict s = out[0], *restrict grad_s = out[1];
 
     PF_LANES_OF (b, i)
-        s[i] = -f[i];
+        s[i] = T_t[i] - f[i];
     for (uint32_t k = 0; k < b->dim; k++)
         PF_LANES_OF (b, i) {
             s[i] += u[k * LD + i] * grad_T[k * LD + i];
@@ -19,17 +19,18 @@ static int F(galerkin)(const pf_batch *b, const NUM *const *in, NUM *const *out)
     return PF_OK;
 }
 
-/* tau (u . grad T - k lap T - f) u . grad s,   tau = (u . G u + C k^2 G : G)^(-1/2) with the metric G */
+/* tau (dT/dt + u . grad T - k lap T - f) u . grad s,   tau = (u . G u + C k^2 G : G)^(-1/2) with the metric G */
 static int F(supg)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct transport *t = b->params;
-    const NUM *restrict u = in[0], *restrict grad_T = in[1], *restrict lap_T = in[2], *restrict f = in[3];
+    const NUM *restrict u = in[0], *restrict grad_T = in[1], *restrict lap_T = in[2], *restrict f = in[3],
+                        *restrict T_t = in[4];
     const double *restrict g = b->metric;
     NUM *restrict grad_s = out[0];
     const uint32_t d = b->dim;
 
     PF_LANES_OF (b, i) {
-        NUM r = -t->diffusivity * lap_T[i] - f[i], rate = 0;
+        NUM r = T_t[i] - t->diffusivity * lap_T[i] - f[i], rate = 0;
 
         for (uint32_t j = 0; j < d; j++) {
             r += u[j * LD + i] * grad_T[j * LD + i];
