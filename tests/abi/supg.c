@@ -41,8 +41,7 @@ static const pf_term supg = {
     PF_OUT({"grad_s", "T", PF_GRAD, PF_VECTOR}),
     PF_PARAMS(struct transport, DIFFUSIVITY,
               PF_NUMBER(struct transport, constant, "1", "of the inverse estimate", .dflt = 36, PF_NOT_NEGATIVE)),
-    /* the metric of worked examples is (4 1; 1 2): u.Gu = 14, G:G = 22, so tau = 1/6; the residual is 12 + 1 - 2 -
-       5 */
+    /* the metric of worked examples is (4 1; 1 2): u.Gu = 14, G:G = 22, tau = 1/6; residual 12 + 1 - 2 - 5 = 6 */
     PF_EXAMPLES({"u = (2, -1), grad T = (3, 5), lap T = 12, f = 5, dT/dt = 12", 2, (double[]){1.0 / 6, 36},
                  (double[]){2, -1, 3, 5, 12, 5, 12}, (double[]){2, -1}, 1e-14}),
 };
