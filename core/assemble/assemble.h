@@ -7,7 +7,8 @@
  *
  *     r_i += sum_q w B_i^T s,      K_ij += sum_q w B_i^T D B_j,      B = (value, gradient)
  *
- * is formed and scattered.  Arrays over points are [component][n_q * 8], lane = q * 8 + cell. */
+ * is formed and scattered (where a term asks for it, B_j of trial functions has a Laplacian too).  Arrays over
+ * points are [component][n_q * 8], lane = q * 8 + cell. */
 #ifndef ASSEMBLE_ASSEMBLE_H
 #define ASSEMBLE_ASSEMBLE_H
 
@@ -85,9 +86,17 @@ typedef struct plan_input {
     v8 *table; /* data that is a function: [batch][n_comp][n_q] */
 } plan_input;
 
-/* One distinct (field, value or gradient) of test functions; trial functions use the same list. */
+/* What of a basis function.  Laplacians are of trial functions only. */
+enum basis_kind { BASIS_VALUE, BASIS_GRAD, BASIS_LAPLACE };
+
+/* Rows of workspace.basis: value, d/dx, d/dy, d/dz, Laplacian. */
+enum { LAPLACE_ROW = 4, BASIS_ROWS = 5, TEST_ROWS = 4 };
+
+/* One distinct (field, kind) of test or trial functions. */
 typedef struct plan_basis {
-    int field, grad, n_comp;
+    int field;
+    enum basis_kind kind;
+    int n_comp;
     size_t at;
 } plan_basis;
 
@@ -123,6 +132,7 @@ typedef struct assembly_class {
     int orient[6];
     double *n_ref[6][3]; /* [order][q][i], basis of order 1 and 2 at the points       */
     double (*dn_ref[6][3])[3];
+    double (*d2n_ref[6][3])[FE_SECOND]; /* where Laplacians are asked for, else NULL; order 2 is the mapping's */
 
     int n_use, n_input, n_test, n_trial;
     plan_use use[ASSEMBLE_MAX_USES];
@@ -130,7 +140,8 @@ typedef struct assembly_class {
     plan_basis test[ASSEMBLE_MAX_TESTS], trial[ASSEMBLE_MAX_TESTS];
     size_t block[ASSEMBLE_MAX_TESTS][ASSEMBLE_MAX_TESTS]; /* offset of D block, SIZE_MAX: no coupling */
     size_t in_size, test_size, block_size, out_size, jac_size, room_size, scratch_size;
-    int order_used[3], grad_used[3];
+    int order_used[3], grad_used[3], laplace_used[3];
+    int any_laplace, any_metric;
     double data_time;
     int data_ready;
     int frame_stamp;   /* of the moving frame whose values these are: */
@@ -192,12 +203,13 @@ void assembly_destroy(assembly *a);
 typedef struct workspace {
     v8 *x_node; /* [dim][nodes]                                            */
     v8 *gap, *size[2], *other_density;
-    v8 *arm, *density;      /* [dim][n_q], [n_q] */
-    int32_t *id;            /* [n_q][8] */
-    v8 *w, *x, *normal, *h; /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
-    v8 *basis[3][4];        /* [order][value, d/dx, d/dy, d/dz]: [i][n_q], i padded     */
-    v8 *dof;                /* nodal values of one field                               */
-    const v8 *frame;        /* w and history of this batch, see assembly_class; NULL: none */
+    v8 *arm, *density;        /* [dim][n_q], [n_q] */
+    int32_t *id;              /* [n_q][8] */
+    v8 *w, *x, *normal, *h;   /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
+    v8 *metric;               /* [dim*dim][n_q], see pf_batch; NULL: no class has it */
+    v8 *basis[3][BASIS_ROWS]; /* [order][value, d/dx, d/dy, d/dz, Laplacian]: [i][n_q], i padded; NULL: not used */
+    v8 *dof;                  /* nodal values of one field                               */
+    const v8 *frame;          /* w and history of this batch, see assembly_class; NULL: none */
     v8 *in, *test, *block, *out, *jac, *room;
     v8 *g;         /* one strip of D B_j                                      */
     v8 *vec, *mat; /* element vector and matrix of one field (pair)            */
@@ -222,6 +234,15 @@ void history_take(const assembly *a, const assembly_class *c, const assembly_sta
 /* Its part of the Jacobian: d(du/dt) = shift du - w . grad du. */
 void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
                       size_t ld, const double *velocity, double *block);
+/* Laplacians of basis functions at a point, one a lane: M : d^2 n - e . dn with reference derivatives, where
+ * M = G G^T, G = dxi/dx, and e = G (M : d^2 x) makes up for the curvature of the mapping (second.c). */
+typedef struct laplacian {
+    v8 m[FE_SECOND], e[3];
+} laplacian;
+laplacian laplacian_of(int dim, int n_node, const v8 *x_node, const double (*d2n)[FE_SECOND], v8 inv[3][3]);
+v8 laplacian_apply(const laplacian *p, int dim, const double dn[3], const double d2n[FE_SECOND]);
+/* Component (a, b) of pf_batch.metric; inv = dxi/dx. */
+v8 metric_of(int dim, int simplex, v8 inv[3][3], int a, int b);
 void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
 void inputs_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                    workspace *w);

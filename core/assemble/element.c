@@ -3,7 +3,7 @@
  * Element vectors and matrices of 8 cells at a time.
  *
  *     r_i^a    = sum_q w sum_e B_i^e s^{a e}               e = value, d/dx, d/dy, d/dz
- *     K_ij^ab  = sum_q w sum_e B_i^e sum_f D^{a e, b f} B_j^f
+ *     K_ij^ab  = sum_q w sum_e B_i^e sum_f D^{a e, b f} B_j^f       f may be the Laplacian too
  *
  * Entries of D that vanish at all points (most of them do in Navier-Stokes) are found and
  * skipped.  The inner loop keeps a 3 x 3 tile of K in registers. */
@@ -11,10 +11,10 @@
 
 #include <string.h>
 
-static int find_basis(const plan_basis *list, int n, int field, int grad)
+static int find_basis(const plan_basis *list, int n, int field, enum basis_kind kind)
 {
     for (int i = 0; i < n; i++)
-        if (list[i].field == field && list[i].grad == grad)
+        if (list[i].field == field && list[i].kind == kind)
             return i;
     return -1;
 }
@@ -26,7 +26,7 @@ void element_vector(const assembly *a, const assembly_class *c, int field, works
 
     memset(w->vec, 0, (size_t)(f->n_comp * n) * sizeof *w->vec);
     for (int grad = 0; grad < 2; grad++) {
-        int t = find_basis(c->test, c->n_test, field, grad);
+        int t = find_basis(c->test, c->n_test, field, grad ? BASIS_GRAD : BASIS_VALUE);
 
         for (int e = 0; t >= 0 && e < f->n_comp * (grad ? dim : 1); e++) {
             const v8 *restrict s = w->test + (c->test[t].at + (size_t)e) * (size_t)nq;
@@ -55,29 +55,34 @@ static int all_zero(const v8 *d, int n)
     return !any;
 }
 
+/* Test functions of one field and trial functions of another, by kind; -1: not used. */
+typedef struct basis_pair {
+    int test[BASIS_GRAD + 1], trial[BASIS_LAPLACE + 1];
+} basis_pair;
+
 /* Non-zero entries of D between component a of the rows and b of the columns: d[e][f]. */
-static int coefficients(const assembly_class *c, int row_field, int col_field, int a, int b, int dim,
-                        const workspace *w, const v8 *d[4][4])
+static int coefficients(const assembly_class *c, const basis_pair *p, int a, int b, int dim, const workspace *w,
+                        const v8 *d[TEST_ROWS][BASIS_ROWS])
 {
+    static const int first_row[] = {0, 1, LAPLACE_ROW};
     int any = 0;
 
-    memset(d, 0, 16 * sizeof d[0][0]);
-    for (int ge = 0; ge < 2; ge++)
-        for (int gf = 0; gf < 2; gf++) {
-            int t = find_basis(c->test, c->n_test, row_field, ge),
-                r = find_basis(c->trial, c->n_trial, col_field, gf);
+    memset(d, 0, TEST_ROWS * sizeof d[0]);
+    for (enum basis_kind ge = BASIS_VALUE; ge <= BASIS_GRAD; ge++)
+        for (enum basis_kind gf = BASIS_VALUE; gf <= BASIS_LAPLACE; gf++) {
+            int t = p->test[ge], r = p->trial[gf];
 
             if (t < 0 || r < 0 || c->block[t][r] == SIZE_MAX)
                 continue;
             for (int e = 0; e < (ge ? dim : 1); e++)
-                for (int f = 0; f < (gf ? dim : 1); f++) {
-                    int row = ge ? a * dim + e : a, col = gf ? b * dim + f : b;
+                for (int f = 0; f < (gf == BASIS_GRAD ? dim : 1); f++) {
+                    int row = ge ? a * dim + e : a, col = gf == BASIS_GRAD ? b * dim + f : b;
                     const v8 *at =
                         w->block + (c->block[t][r] + (size_t)(row * c->trial[r].n_comp + col)) * (size_t)c->n_q;
 
                     if (all_zero(at, c->n_q))
                         continue;
-                    d[ge ? e + 1 : 0][gf ? f + 1 : 0] = at;
+                    d[first_row[ge] + e][first_row[gf] + f] = at;
                     any = 1;
                 }
         }
@@ -85,23 +90,25 @@ static int coefficients(const assembly_class *c, int row_field, int col_field, i
 }
 
 /* g[e][j][q] = w sum_f D^{e f} B_j^f for three columns j. */
-static void strip(const v8 *d[4][4], v8 *const *basis, int j0, int nq, int dim, const v8 *w, v8 *g)
+static void strip(const v8 *d[TEST_ROWS][BASIS_ROWS], v8 *const *basis, int j0, int nq, int dim, const v8 *w, v8 *g)
 {
-    for (int e = 0; e <= dim; e++)
+    for (int e = 0; e <= dim; e++) {
+        int used[BASIS_ROWS], n = 0;
+
+        for (int f = 0; f < BASIS_ROWS; f++)
+            if (d[e][f])
+                used[n++] = f;
         for (int j = 0; j < 3; j++) {
             v8 *restrict to = g + (e * 3 + j) * nq;
-            int first = 1;
 
-            for (int f = 0; f <= dim; f++) {
-                const v8 *restrict de = d[e][f], *restrict b = basis[f] + (j0 + j) * nq;
+            for (int k = 0; k < n; k++) {
+                const v8 *restrict de = d[e][used[k]], *restrict b = basis[used[k]] + (j0 + j) * nq;
 
-                if (!de)
-                    continue;
                 for (int q = 0; q < nq; q++)
-                    to[q] = first ? w[q] * de[q] * b[q] : to[q] + w[q] * de[q] * b[q];
-                first = 0;
+                    to[q] = k == 0 ? w[q] * de[q] * b[q] : to[q] + w[q] * de[q] * b[q];
             }
         }
+    }
 }
 
 /* A 3 x 3 tile of K: sum_e sum_q B_i^e g_j^e. */
@@ -135,20 +142,28 @@ int element_matrix(const assembly *as, const assembly_class *c, int row_field, i
     int dim = s->mesh->dim, nq = c->n_q, coupled = 0;
     int n_row = assemble_padded(c->n_basis[rf->order]);
     int n_col = assemble_padded(c->n_basis[cf->order]);
+    basis_pair p;
 
+    for (enum basis_kind e = BASIS_VALUE; e <= BASIS_GRAD; e++)
+        p.test[e] = find_basis(c->test, c->n_test, row_field, e);
+    for (enum basis_kind e = BASIS_VALUE; e <= BASIS_LAPLACE; e++)
+        p.trial[e] = find_basis(c->trial, c->n_trial, col_field, e);
     for (int a = 0; a < rf->n_comp; a++)
         for (int b = 0; b < cf->n_comp; b++) {
             v8 *k = w->mat + (a * cf->n_comp + b) * n_row * n_col;
-            const v8 *d[4][4];
-            int row_used[4];
+            const v8 *d[TEST_ROWS][BASIS_ROWS];
+            int row_used[TEST_ROWS];
 
-            if (!coefficients(c, row_field, col_field, a, b, dim, w, d)) {
+            if (!coefficients(c, &p, a, b, dim, w, d)) {
                 memset(k, 0, (size_t)(n_row * n_col) * sizeof *k);
                 continue;
             }
             coupled = 1;
-            for (int e = 0; e < 4; e++)
-                row_used[e] = d[e][0] || d[e][1] || d[e][2] || d[e][3];
+            for (int e = 0; e < TEST_ROWS; e++) {
+                row_used[e] = 0;
+                for (int f = 0; f < BASIS_ROWS; f++)
+                    row_used[e] |= d[e][f] != NULL;
+            }
             for (int j = 0; j < n_col; j += 3) {
                 strip(d, w->basis[cf->order], j, nq, dim, w->w, w->g);
                 for (int i = 0; i < n_row; i += 3)

@@ -207,6 +207,7 @@ static int evaluate_term(const assembly_class *c, const assembly_state *s, int64
         at += (size_t)term_components(t->out[o].shape, dim) * ld;
     }
     b->params = p->use->params;
+    b->metric = t->flags & PF_METRIC ? (double *)w->metric : NULL;
     w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
     process_enter(w->report.plugin, t->name, "residual", cell);
     status = t->residual(b, in, out);

@@ -31,10 +31,12 @@ static void interpolate(const workspace *w, const plan_input *in, int order, int
 {
     v8 *restrict out = w->in + in->at * (size_t)nq;
     int grad = in->eval == PF_GRAD, div = in->eval == PF_DIV;
+    int first = in->eval == PF_LAPLACE ? LAPLACE_ROW : grad || div ? 1 : 0;
+    int last = grad || div ? dim : first;
 
     memset(out, 0, (size_t)(in->n_comp * nq) * sizeof *out);
     for (int a = 0; a < n_comp; a++)
-        for (int k = grad || div ? 1 : 0; k <= (grad || div ? dim : 0); k++) {
+        for (int k = first; k <= last; k++) {
             v8 *restrict to = out + (grad ? (a * dim + k - 1) * nq : div ? 0 : a * nq);
 
             if (div && k != a + 1)

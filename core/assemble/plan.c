@@ -10,6 +10,27 @@
 
 enum { FACET_DEGREE = 5 };
 
+static enum basis_kind kind_of(const pf_slot *slot)
+{
+    switch (slot->eval) {
+    case PF_GRAD:
+    case PF_DIV:
+        return BASIS_GRAD;
+    case PF_LAPLACE:
+        return BASIS_LAPLACE;
+    default:
+        return BASIS_VALUE;
+    }
+}
+
+static void mark_used(assembly_class *c, int order, enum basis_kind kind)
+{
+    c->order_used[order] = 1;
+    c->grad_used[order] |= kind == BASIS_GRAD;
+    c->laplace_used[order] |= kind == BASIS_LAPLACE;
+    c->any_laplace |= kind == BASIS_LAPLACE;
+}
+
 static int find_input(assembly_class *c, const space *s, const pf_slot *slot, const value *data, error *err)
 {
     int f = slot->eval == PF_DATA ? -1 : space_find_field(s, slot->field);
@@ -25,8 +46,7 @@ static int find_input(assembly_class *c, const space *s, const pf_slot *slot, co
     in->n_comp = term_components(slot->shape, s->mesh->dim);
     c->in_size += (size_t)in->n_comp;
     if (f >= 0) {
-        c->order_used[s->field[f].order] = 1;
-        c->grad_used[s->field[f].order] |= slot->eval == PF_GRAD || slot->eval == PF_DIV;
+        mark_used(c, s->field[f].order, kind_of(slot));
         if (slot->eval == PF_DOT && c->where == PF_FLUID) /* see moving_frame */
             c->grad_used[s->field[f].order] = 1;
     }
@@ -35,18 +55,19 @@ static int find_input(assembly_class *c, const space *s, const pf_slot *slot, co
 
 static int find_basis(assembly_class *c, const space *s, plan_basis *list, int *n, const pf_slot *slot, error *err)
 {
-    int f = space_find_field(s, slot->field), grad = slot->eval == PF_GRAD || slot->eval == PF_DIV;
+    int f = space_find_field(s, slot->field);
+    enum basis_kind kind = kind_of(slot);
     plan_basis *b = &list[*n];
 
     for (int i = 0; i < *n; i++)
-        if (list[i].field == f && list[i].grad == grad)
+        if (list[i].field == f && list[i].kind == kind)
             return i;
     if (*n == ASSEMBLE_MAX_TESTS)
         return -error_set(err, ERR_PLUGIN, "the terms need more than %d different test functions",
                           ASSEMBLE_MAX_TESTS);
-    *b = (plan_basis){.field = f, .grad = grad, .n_comp = s->field[f].n_comp * (grad ? s->mesh->dim : 1)};
-    c->order_used[s->field[f].order] = 1;
-    c->grad_used[s->field[f].order] |= grad;
+    *b = (plan_basis){
+        .field = f, .kind = kind, .n_comp = s->field[f].n_comp * (kind == BASIS_GRAD ? s->mesh->dim : 1)};
+    mark_used(c, s->field[f].order, kind);
     return (*n)++;
 }
 
@@ -64,6 +85,7 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
     int dim = s->mesh->dim;
 
     p->use = use;
+    c->any_metric |= (t->flags & PF_METRIC) != 0;
     for (uint32_t k = 0; k < t->n_in; k++) {
         const pf_slot *slot = &t->in[k];
 
@@ -97,6 +119,24 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
     return 0;
 }
 
+/* Second derivatives of the basis at the points of rule f, of the mapping and of the orders that are asked for. */
+static int place_second(assembly *a, assembly_class *c, int f, error *err)
+{
+    const fe_cell *type = a->space->mesh->type;
+    const fe_rule *r = &c->rule[f];
+
+    for (int order = 0; order < 3; order++) {
+        int n = fe_n_basis(type, order);
+
+        if (order < 2 && !c->laplace_used[order])
+            continue;
+        ARENA_NEW(&a->memory, c->d2n_ref[f][order], r->n * n, err);
+        for (int q = 0; q < r->n; q++)
+            fe_basis_second(type, order, r->x[q], c->d2n_ref[f][order] + q * n);
+    }
+    return 0;
+}
+
 static int place_rules(assembly *a, assembly_class *c, const cut_rule *cut, error *err)
 {
     const fe_cell *type = a->space->mesh->type;
@@ -126,6 +166,8 @@ static int place_rules(assembly *a, assembly_class *c, const cut_rule *cut, erro
             for (int q = 0; q < r->n; q++)
                 fe_basis(type, order, r->x[q], c->n_ref[f][order] + q * n, c->dn_ref[f][order] + q * n);
         }
+        if (c->any_laplace)
+            TRY(place_second(a, c, f, err));
     }
     return 0;
 }
@@ -246,6 +288,7 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
     size_t in = 1, test = 1, block = 1, out = 1, jac = 1, room = 1, scratch = 1,
            n = (size_t)assemble_padded(type->n_node);
     size_t q = 1, basis[3] = {0}, dim = (size_t)type->dim;
+    int laplace[3] = {0}, metric = 0;
 
     for (int i = 0; i < a->n_class; i++) {
         const assembly_class *c = &a->class_[i];
@@ -259,9 +302,11 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
         jac = max_size(jac, c->jac_size * nq);
         room = max_size(room, c->room_size * nq);
         scratch = max_size(scratch, c->scratch_size);
+        metric |= c->any_metric;
         for (int order = 0; order < 3; order++) {
             basis[order] = max_size(basis[order], (size_t)assemble_padded(c->n_basis[order]));
             n = max_size(n, basis[order]);
+            laplace[order] |= c->laplace_used[order];
         }
     }
     ARENA_NEW(&w->memory, w->x_node, n * dim, err);
@@ -279,6 +324,11 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
     for (int order = 0; order < 3; order++)
         for (size_t k = 0; k <= dim; k++)
             ARENA_NEW(&w->memory, w->basis[order][k], (basis[order] + 1) * q, err);
+    for (int order = 0; order < 3; order++)
+        if (laplace[order])
+            ARENA_NEW(&w->memory, w->basis[order][LAPLACE_ROW], (basis[order] + 1) * q, err);
+    if (metric)
+        ARENA_NEW(&w->memory, w->metric, q * dim * dim, err);
     ARENA_NEW(&w->memory, w->dof, n * dim, err);
     ARENA_NEW(&w->memory, w->in, in, err);
     ARENA_NEW(&w->memory, w->test, test, err);
@@ -286,7 +336,7 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
     ARENA_NEW(&w->memory, w->out, out, err);
     ARENA_NEW(&w->memory, w->jac, jac, err);
     ARENA_NEW(&w->memory, w->room, room, err);
-    ARENA_NEW(&w->memory, w->g, 4 * ASSEMBLE_PAD * q, err);
+    ARENA_NEW(&w->memory, w->g, TEST_ROWS * ASSEMBLE_PAD * q, err);
     ARENA_NEW(&w->memory, w->vec, n * dim, err);
     ARENA_NEW(&w->memory, w->mat, n * n * dim * dim, err);
     w->scratch = arena_alloc(&w->memory, scratch, 1);

@@ -92,13 +92,14 @@ static void print_term(const term_plugin *p, const pf_term *t)
                                              "bodies, once each",
                                              "near pairs of bodies or body and wall (differences)"};
 
-    printf("  %s.%s%s\n      weak    %s\n      source  %s\n      points  %s; Jacobian %s%s%s\n", p->d.name, t->name,
-           t->flags & PF_OPTIONAL ? " (only if its own line switches it on)" : "", t->doc, t->cite,
+    printf("  %s.%s%s\n      weak    %s\n      source  %s\n      points  %s; Jacobian %s%s%s%s\n", p->d.name,
+           t->name, t->flags & PF_OPTIONAL ? " (only if its own line switches it on)" : "", t->doc, t->cite,
            point_name[t->where],
            t->jacobian     ? "by hand"
            : t->residual_c ? "by complex step"
                            : "by differences",
-           t->flags & PF_LINEAR ? "; linear" : "", t->flags & PF_CONTINUATION ? "; faded in by continuation" : "");
+           t->flags & PF_LINEAR ? "; linear" : "", t->flags & PF_CONTINUATION ? "; faded in by continuation" : "",
+           t->flags & PF_METRIC ? "; reads the metric of the element" : "");
     print_slots("in", t->in, t->n_in, (t->flags & PF_BY_BOUNDARY) != 0);
     print_slots("out", t->out, t->n_out, 0);
     print_params(t);

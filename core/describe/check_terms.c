@@ -130,7 +130,8 @@ static int has_level(const description *d, const char *field)
     for (int i = 0; i < d->n_use; i++) {
         const pf_term *t = d->use[i].term;
         int value = slot_of(t->in, t->n_in, field, PF_VALUE) != NULL;
-        int slope = slot_of(t->in, t->n_in, field, PF_GRAD) || slot_of(t->in, t->n_in, field, PF_DIV);
+        int slope = slot_of(t->in, t->n_in, field, PF_GRAD) || slot_of(t->in, t->n_in, field, PF_DIV) ||
+                    slot_of(t->in, t->n_in, field, PF_LAPLACE);
 
         if ((t->flags & PF_BY_BOUNDARY) || !slot_of(t->in, t->n_in, field, 0))
             continue;

@@ -151,9 +151,13 @@ static void tensor_basis(int dim, int order, const double *xi, double *n, double
 /* Middles of edges of a simplex, after its vertices: the vertices they lie between. */
 static const int simplex_edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
 
+/* Gradients of the barycentric coordinates. */
+static const double barycentric_slope[4][3] = {{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
 static void simplex_basis(int dim, int order, const double *xi, double *n, double (*dn)[3])
 {
-    double b[4] = {1, 0, 0, 0}, db[4][3] = {{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const double(*db)[3] = barycentric_slope;
+    double b[4] = {1, 0, 0, 0};
     int nv = dim + 1, ne = dim == 2 ? 3 : 6;
 
     for (int k = 0; k < dim; k++) {
@@ -184,6 +188,56 @@ void fe_basis(const fe_cell *c, int order, const double *xi, double *n, double (
     } else {
         tensor_basis(c->dim, order, xi, n, dn);
     }
+}
+
+static void tensor_second(int dim, int order, const double *xi, double (*d2n)[FE_SECOND])
+{
+    double l[3][3] = {{0}}, dl[3][3] = {{0}};
+    const double d2l[3] = {order == 2 ? 1 : 0, order == 2 ? -2 : 0, order == 2 ? 1 : 0};
+    int m = order + 1, mz = dim == 3 ? m : 1;
+
+    for (int k = 0; k < dim; k++)
+        line_basis(order, xi[k], l[k], dl[k]);
+    if (dim == 2)
+        l[2][0] = 1;
+    for (int c = 0, i = 0; c < mz; c++)
+        for (int b = 0; b < m; b++)
+            for (int a = 0; a < m; a++, i++) {
+                d2n[i][0] = d2l[a] * l[1][b] * l[2][c];
+                d2n[i][1] = l[0][a] * d2l[b] * l[2][c];
+                d2n[i][2] = dim == 3 ? l[0][a] * l[1][b] * d2l[c] : 0;
+                d2n[i][3] = dl[0][a] * dl[1][b] * l[2][c];
+                d2n[i][4] = l[0][a] * dl[1][b] * dl[2][c];
+                d2n[i][5] = dl[0][a] * l[1][b] * dl[2][c];
+            }
+}
+
+static void simplex_second(int dim, int order, double (*d2n)[FE_SECOND])
+{
+    static const int of[FE_SECOND][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+    int nv = dim + 1, ne = dim == 2 ? 3 : 6;
+
+    for (int s = 0; s < FE_SECOND; s++) {
+        int k = of[s][0], l = of[s][1], on = order == 2 && k < dim && l < dim;
+
+        for (int i = 0; i < nv; i++)
+            d2n[i][s] = on ? 4 * barycentric_slope[i][k] * barycentric_slope[i][l] : 0;
+        for (int e = 0; order == 2 && e < ne; e++) {
+            const double *p = barycentric_slope[simplex_edge[e][0]], *q = barycentric_slope[simplex_edge[e][1]];
+
+            d2n[nv + e][s] = on ? 4 * (p[k] * q[l] + q[k] * p[l]) : 0;
+        }
+    }
+}
+
+void fe_basis_second(const fe_cell *c, int order, const double *xi, double (*d2n)[FE_SECOND])
+{
+    if (order == 0)
+        memset(d2n[0], 0, sizeof d2n[0]);
+    else if (c->simplex)
+        simplex_second(c->dim, order, d2n);
+    else
+        tensor_second(c->dim, order, xi, d2n);
 }
 
 void fe_bernstein(const fe_cell *c, double *v)

@@ -36,6 +36,10 @@ int fe_n_basis(const fe_cell *c, int order);
 /* Values n[i] and reference gradients dn[i][dim] of the basis of the order at xi. */
 void fe_basis(const fe_cell *c, int order, const double *xi, double *n, double (*dn)[3]);
 
+/* Second reference derivatives d2n[i] of the same basis: xx, yy, zz, xy, yz, zx; zero where there is no z. */
+enum { FE_SECOND = 6 };
+void fe_basis_second(const fe_cell *c, int order, const double *xi, double (*d2n)[FE_SECOND]);
+
 /* Nodal values of a function of second order, [n_node], to its Bernstein coefficients in place.  The function's
  * values on the cell lie between the smallest and the largest of them. */
 void fe_bernstein(const fe_cell *c, double *v);

@@ -90,6 +90,29 @@ static int create_values(bench *k, error *err)
     return 0;
 }
 
+/* A symmetric positive definite matrix at each point, as of elements of different sizes and stretching: A^T A + 1.
+ */
+static int create_metric(bench *k, error *err)
+{
+    const int d = k->dim;
+
+    ARENA_NEW(&k->memory, k->metric, d * d * BENCH_LD, err);
+    for (int l = 0; l < BENCH_LD; l++) {
+        double a[3][3];
+
+        for (int i = 0; i < d * d; i++)
+            a[i / d][i % d] = 3 * random_number(k);
+        for (int i = 0; i < d * d; i++) {
+            double *g = &k->metric[i * BENCH_LD + l];
+
+            *g = i / d == i % d;
+            for (int r = 0; r < d; r++)
+                *g += a[r][i / d] * a[r][i % d];
+        }
+    }
+    return 0;
+}
+
 static int create_points(bench *k, error *err)
 {
     ARENA_NEW(&k->memory, k->x, 3 * BENCH_LD, err);
@@ -133,6 +156,7 @@ static pf_batch batch_of(bench *k)
         .size_of = on_pair ? k->density : NULL,
         .other_size = on_pair ? k->density : NULL,
         .other_density = on_pair ? k->density : NULL,
+        .metric = k->metric,
         .params = k->params,
         .scratch = k->scratch,
         .kernel = &k->report,
@@ -155,6 +179,8 @@ int bench_create(bench *k, selftest *s, const term_plugin *p, const pf_term *t, 
         return error_memory(err, "test of a term", 0);
     TRY(create_values(k, err));
     TRY(create_points(k, err));
+    if (t->flags & PF_METRIC)
+        TRY(create_metric(k, err));
     place_params(k);
     bench_random_inputs(k);
     k->b = batch_of(k);

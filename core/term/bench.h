@@ -17,7 +17,7 @@ typedef struct bench {
     void *params;
     double *in[TERM_MAX_SLOTS], *out[TERM_MAX_SLOTS], *again[TERM_MAX_SLOTS];
     double *jac[TERM_MAX_SLOTS * TERM_MAX_SLOTS], *truth[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
-    double *x, *normal, *h, *arm, *density;
+    double *x, *normal, *h, *arm, *density, *metric;
     int32_t *id;
     void *room, *scratch;
     term_report report;

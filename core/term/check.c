@@ -51,10 +51,10 @@ const char *term_where_name(uint32_t where)
 
 const char *term_eval_name(uint32_t eval)
 {
-    static const char *const name[] = {"",     "value",     "gradient", "divergence",
-                                       "d/dt", "old value", "data",     "defect"};
+    static const char *const name[] = {"",          "value", "gradient", "divergence", "d/dt",
+                                       "old value", "data",  "defect",   "Laplacian"};
 
-    return eval <= PF_DEFECT ? name[eval] : "";
+    return eval <= PF_LAPLACE ? name[eval] : "";
 }
 
 const pf_field *term_field(const term_plugin *p, const char *name)
@@ -134,7 +134,13 @@ static int check_slots(const term_plugin *p, const pf_slot *slot, uint32_t n, ui
         for (uint32_t k = 0; k < i; k++)
             if (strcmp(slot[k].name, slot[i].name) == 0)
                 return wrong(err, s, "two %s slots are called \"%s\"", side, slot[i].name);
-        if (slot[i].eval < PF_VALUE || slot[i].eval > PF_DEFECT ||
+        if (is_out && slot[i].eval == PF_LAPLACE)
+            return wrong(
+                err, s,
+                "output slot \"%s\": PF_LAPLACE is for input slots; of a test function there are PF_VALUE, "
+                "PF_GRAD and PF_DIV",
+                slot[i].name);
+        if (slot[i].eval < PF_VALUE || slot[i].eval > PF_LAPLACE ||
             (is_out && slot[i].eval != PF_VALUE && slot[i].eval != PF_GRAD && slot[i].eval != PF_DIV &&
              slot[i].eval != PF_DEFECT))
             return wrong(err, s, "%s slot \"%s\": eval %u is not possible there", side, slot[i].name, slot[i].eval);
@@ -157,6 +163,25 @@ static int check_slots(const term_plugin *p, const pf_slot *slot, uint32_t n, ui
             return wrong(err, s, "%s slot \"%s\": field \"%s\" does not live on the mesh and has no %s", side,
                          slot[i].name, f->name, term_eval_name(slot[i].eval));
     }
+    return 0;
+}
+
+/* What came with 1.3: where it is possible, and that older versions of plugflow refuse the plugin. */
+static int check_second(const term_plugin *p, const pf_term *t, const struct subject *s, error *err)
+{
+    const char *what = t->flags & PF_METRIC ? "PF_METRIC" : NULL;
+
+    if ((t->flags & PF_METRIC) && (t->where == PF_CUT || t->where == PF_PAIR))
+        return wrong(err, s, "has PF_METRIC, but %s points lie in no single element and have no metric",
+                     term_where_name(t->where));
+    for (uint32_t k = 0; k < t->n_in; k++)
+        if (t->in[k].eval == PF_LAPLACE)
+            what = "PF_LAPLACE";
+    if (what && p->d.min_minor < 3)
+        return wrong(err, s,
+                     "uses %s of plugin interface 1.3, which older ones do not have; set .min_minor = 3 in "
+                     "its pf_plugin",
+                     what);
     return 0;
 }
 
@@ -205,6 +230,7 @@ static int check_term(const term_plugin *p, const pf_term *t, const struct subje
         return wrong(err, s, "has no output, or a count without its array");
     TRY(check_slots(p, t->in, t->n_in, t->where, 0, s, err));
     TRY(check_slots(p, t->out, t->n_out, t->where, 1, s, err));
+    TRY(check_second(p, t, s, err));
     for (uint32_t i = 0; i < t->n_param; i++) {
         TRY(check_param(t, &t->param[i], s, err));
         for (uint32_t k = 0; k < i; k++)

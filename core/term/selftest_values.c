@@ -82,6 +82,8 @@ static void test_batches(bench *k)
         reverse(k->x + c * BENCH_LD);
         reverse(k->arm + c * BENCH_LD);
     }
+    for (int c = 0; k->metric && c < k->dim * k->dim; c++)
+        reverse(k->metric + c * BENCH_LD);
     reverse(k->h);
     reverse(k->density);
     if (!same_values(k, BENCH_LD))
@@ -134,6 +136,15 @@ static void test_twin(bench *k)
                    k->t->name, worst, size);
 }
 
+/* The metric that worked examples have: (4 1; 1 2), in 3D (4 1 0; 1 2 0; 0 0 1). */
+static void place_example_metric(bench *k)
+{
+    static const double g[3][3] = {{4, 1, 0}, {1, 2, 0}, {0, 0, 1}};
+
+    for (int i = 0; k->metric && i < k->dim * k->dim * BENCH_LD; i++)
+        k->metric[i] = g[i / BENCH_LD / k->dim][i / BENCH_LD % k->dim];
+}
+
 void selftest_example(bench *k, const pf_example *e)
 {
     const double *in = e->in, *out = e->out, *params = e->params;
@@ -144,6 +155,7 @@ void selftest_example(bench *k, const pf_example *e)
         bench_put_param(k, &k->t->param[i], params);
         params += k->t->param[i].type == PF_T_VECTOR ? k->dim : 1;
     }
+    place_example_metric(k);
     for (uint32_t i = 0; i < k->t->n_in; i++)
         for (int c = 0; c < bench_components(k, &k->t->in[i]); c++, in++)
             for (int l = 0; l < BENCH_LD; l++)

@@ -24,7 +24,7 @@ typedef double _Complex pf_complex;
 #endif
 
 #define PF_ABI_MAJOR 1u /* differs: refused                                            */
-#define PF_ABI_MINOR 2u /* plugin newer than kernel: loads if its min_minor allows     */
+#define PF_ABI_MINOR 3u /* plugin newer than kernel: loads if its min_minor allows     */
 #define PF_LANES     8u /* ld is a multiple of it; arrays are 64-byte aligned          */
 #define PF_SIZES     ((uint32_t)(sizeof(double) << 16 | sizeof(void *) << 8 | sizeof(size_t)))
 
@@ -58,7 +58,11 @@ enum pf_eval {
     PF_DATA = 6, /* no unknown: a value or function of x and t from the case                */
     /* What differs: on PF_CUT the value minus the polynomial of the root cell, continued to here; on
      * PF_PAIR that of the first body minus that of the other (a wall rests).  The only slots there. */
-    PF_DEFECT = 7
+    PF_DEFECT = 7,
+    /* Laplacian inside of the cell, of the shape of the value: sum_k d^2 u_a / d x_k^2, on curved cells with the
+     * second derivatives of their mapping.  What the field does across facets is not in it.  Of fields on the
+     * mesh; for input slots only (1.3) */
+    PF_LAPLACE = 8
 };
 
 /* Components of a slot; a tensor is row-major, grad_u[a*dim + k] = d u_a / d x_k. */
@@ -140,6 +144,10 @@ typedef struct pf_batch {
      * the wall, to the first.  Sizes: across, m; of a wall infinite, and its density 0. */
     const double *gap, *size_of, *other_size, *other_density;
     const struct pf_host *host; /* to say why a point fails: return b->host->fail(b, i, PF_RETRY, ...) (1.2) */
+    /* For terms with PF_METRIC, else NULL (1.3): [dim*dim][ld], row-major, G^T G of the element, 1/m^2, with
+     * G = dxi/dx.  Reference cells are [-1,1]^dim and the regular simplex with edges of length 2, so that it is
+     * (2/h)^2 times the identity in a square, a cube and a regular simplex with edges of length h. */
+    const double *metric;
 } pf_batch;
 
 /* in[k], out[k]: [component][ld] of slot k.  The residual assigns every output.
@@ -168,7 +176,8 @@ enum pf_term_flag {
      * boundary "left" { heat_flux = 3 } */
     PF_BY_BOUNDARY = 8,
     /* PF_SOLID: its rows of particle fields, with the sign changed, are what the fluid does to the body (1.1) */
-    PF_FLUID_FORCE = 16
+    PF_FLUID_FORCE = 16,
+    PF_METRIC = 32 /* it reads pf_batch.metric; not on PF_CUT and PF_PAIR (1.3) */
 };
 
 typedef struct pf_term {

@@ -176,6 +176,18 @@ ALTERATION(undeclared_field, in[0].field = "temperature")
 ALTERATION(wrong_slot_shape, in[1].shape = PF_VECTOR)
 ALTERATION(output_of_old_value, out[0].eval = PF_OLD)
 ALTERATION(defect_slot, in[0].eval = PF_DEFECT)
+ALTERATION(laplacian_of_a_test_function, out[0].eval = PF_LAPLACE, plugin.min_minor = 3)
+ALTERATION(laplacian_on_pairs, in[0].eval = PF_LAPLACE, term.where = PF_PAIR, plugin.min_minor = 3)
+ALTERATION(laplacian_in_cut_cells, in[0].eval = PF_LAPLACE, term.where = PF_CUT, plugin.min_minor = 3)
+ALTERATION(laplacian_off_the_mesh, in[0] = (pf_slot){"lap_p", "p", PF_LAPLACE, PF_SCALAR},
+           fields[1].support = PF_ON_PROBLEM, plugin.min_minor = 3)
+ALTERATION(laplacian_of_a_body, in[0] = (pf_slot){"lap_p", "p", PF_LAPLACE, PF_SCALAR},
+           fields[1].support = PF_ON_PARTICLE, plugin.min_minor = 3)
+ALTERATION(laplacian_of_wrong_shape, in[1].eval = PF_LAPLACE, plugin.min_minor = 3)
+ALTERATION(laplacian_without_minor, in[0].eval = PF_LAPLACE)
+ALTERATION(metric_without_minor, term.flags = PF_METRIC, plugin.min_minor = 2)
+ALTERATION(metric_in_cut_cells, term.flags = PF_METRIC, term.where = PF_CUT, term.n_in = 1, in[0].eval = PF_DEFECT,
+           out[0].eval = PF_DEFECT, plugin.min_minor = 3)
 ALTERATION(too_many_slots, term.n_in = 1u << 28)
 
 /* --- parameters --- */
@@ -262,6 +274,15 @@ static const struct alteration {
     A(wrong_slot_shape),
     A(output_of_old_value),
     A(defect_slot),
+    A(laplacian_of_a_test_function),
+    A(laplacian_on_pairs),
+    A(laplacian_in_cut_cells),
+    A(laplacian_off_the_mesh),
+    A(laplacian_of_a_body),
+    A(laplacian_of_wrong_shape),
+    A(laplacian_without_minor),
+    A(metric_without_minor),
+    A(metric_in_cut_cells),
     A(too_many_slots),
     A(default_out_of_range),
     A(param_outside_struct),

@@ -78,12 +78,25 @@ static void answers_as_expected(void **state)
          #NAME ".so", "", CODE, __VA_ARGS__)
 #define LOADS(FACT, FILE) CALL(FACT, "test", FILE, "", EXIT_OK, " 0 failed")
 
+/* plugflow jacobian supg.lua OPTIONS --plugin supg.so finds nothing wrong. */
+#define SUPG(FACT, OPTIONS)                                                                                        \
+    CALL(FACT, "jacobian \"$PLUGFLOW_SOURCE/tests/abi/supg.lua\" --plugin", "supg.so", OPTIONS, EXIT_OK,           \
+         "ok     d R_T / d T  differences agree", "ok     d R_T / d u  differences agree")
+
 static const struct CMUnitTest tests[] = {
     LOADS("sound_plugin_passes", "sound.so"),
     LOADS("plugin_of_a_later_minor_version_with_longer_structs_passes", "later_minor.so"),
     LOADS("required_whole_number_is_tested_inside_its_range", "needs_order.so"),
     LOADS("frozen_header_1_0_loads", "frozen_1_0.so"),
     LOADS("frozen_header_1_1_loads", "frozen_1_1.so"),
+    LOADS("frozen_header_1_2_loads", "frozen_1_2.so"),
+    LOADS("laplacian_and_metric_of_1_3_pass", "supg.so"),
+    CALL("they_are_described", "describe", "supg.so", "", EXIT_OK, "Laplacian of T, scalar",
+         "; reads the metric of the element"),
+    SUPG("term_with_both_has_its_jacobian_on_curved_quads", ""),
+    SUPG("term_with_both_has_its_jacobian_on_curved_triangles", "--set simplex=true"),
+    SUPG("term_with_both_has_its_jacobian_in_cut_quads", "--set body=true"),
+    SUPG("term_with_both_has_its_jacobian_in_cut_triangles", "--set body=true --set simplex=true"),
 
     /* files */
     TOLD(nowhere, "nowhere.so does not exist"),
@@ -92,8 +105,8 @@ static const struct CMUnitTest tests[] = {
     TOLD(undefined_symbol, "undefined_symbol.so cannot be loaded", "undefined symbol: a_function_that_nobody_has"),
 
     /* the description of the plugin */
-    TOLD(wrong_abi_major, "built for plugin interface 2.2, this plugflow has 1.2", "rebuild"),
-    TOLD(needs_newer_minor, "needs plugin interface 1.3 or later, this plugflow has 1.2", "update plugflow"),
+    TOLD(wrong_abi_major, "built for plugin interface 2.3, this plugflow has 1.3", "rebuild"),
+    TOLD(needs_newer_minor, "needs plugin interface 1.4 or later, this plugflow has 1.3", "update plugflow"),
     TOLD(plugin_too_small, "its pf_plugin has 40 bytes, at least", "set .size = sizeof(pf_plugin)"),
     TOLD(other_type_sizes, "built with other type sizes (0x40404, here 0x80808)"),
     TOLD(bad_plugin_name, "has no proper name"),
@@ -127,6 +140,17 @@ static const struct CMUnitTest tests[] = {
     TOLD(wrong_slot_shape, "input slot \"grad_u\": the gradient of field \"u\" has another shape"),
     TOLD(output_of_old_value, "output slot \"v\": eval 5 is not possible there"),
     TOLD(defect_slot, "slot \"u\" asks for PF_DEFECT, which only PF_CUT and PF_PAIR points have"),
+    TOLD(laplacian_of_a_test_function,
+         "output slot \"v\": PF_LAPLACE is for input slots; of a test function there are "),
+    TOLD(laplacian_on_pairs, "slot \"u\": on PF_PAIR points fields are there as PF_DEFECT only"),
+    TOLD(laplacian_in_cut_cells, "slot \"u\": on PF_CUT points fields are there as PF_DEFECT only"),
+    TOLD(laplacian_off_the_mesh,
+         "input slot \"lap_p\": field \"p\" does not live on the mesh and has no Laplacian"),
+    TOLD(laplacian_of_a_body, "input slot \"lap_p\": field \"p\" does not live on the mesh and has no Laplacian"),
+    TOLD(laplacian_of_wrong_shape, "input slot \"grad_u\": the Laplacian of field \"u\" has another shape"),
+    TOLD(laplacian_without_minor, "uses PF_LAPLACE of plugin interface 1.3", "set .min_minor = 3 in its pf_plugin"),
+    TOLD(metric_without_minor, "uses PF_METRIC of plugin interface 1.3", "set .min_minor = 3 in its pf_plugin"),
+    TOLD(metric_in_cut_cells, "has PF_METRIC, but PF_CUT points lie in no single element and have no metric"),
     TOLD(too_many_slots, "268435456 input slots and 1 output slots, at most 12 of each are possible"),
 
     /* parameters */

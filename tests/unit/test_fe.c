@@ -59,6 +59,36 @@ static void basis_sums_to_one_and_gradients_match_differences(void **state)
         }
 }
 
+/* On all of the cell, up to its edge; quadratics differ from their differences by round-off alone. */
+static void second_derivatives_match_differences_of_gradients(void **state)
+{
+    static const int of[FE_SECOND][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+    const double h = 0.125, at[2][3] = {{0.21, 0.34, 0.17}, {0, 1, 0}};
+
+    (void)state;
+    for (int t = 0; t < 4; t++)
+        for (int order = 0; order <= 2; order++)
+            for (int s = 0; s < 2 * FE_SECOND; s++) {
+                const fe_cell *c = fe_cell_of(types[t]);
+                int k = of[s / 2][0], l = of[s / 2][1];
+                double n[FE_MAX_NODES], plus[FE_MAX_NODES][3], minus[FE_MAX_NODES][3], d2n[FE_MAX_NODES][FE_SECOND],
+                    p[3];
+
+                fe_basis_second(c, order, at[s % 2], d2n);
+                for (int d = 0; d < 3; d++)
+                    p[d] = at[s % 2][d];
+                p[l] += h;
+                fe_basis(c, order, p, n, plus);
+                p[l] -= 2 * h;
+                fe_basis(c, order, p, n, minus);
+                for (int i = 0; i < fe_n_basis(c, order); i++) {
+                    double d = k < c->dim && l < c->dim ? (plus[i][k] - minus[i][k]) / (2 * h) : 0;
+
+                    assert_true(fabs(d - d2n[i][s / 2]) < 1e-13);
+                }
+            }
+}
+
 static double factorial(int n)
 {
     return n < 2 ? 1 : n * factorial(n - 1);
@@ -230,6 +260,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(basis_is_one_at_its_node_and_zero_at_others),
         cmocka_unit_test(basis_sums_to_one_and_gradients_match_differences),
+        cmocka_unit_test(second_derivatives_match_differences_of_gradients),
         cmocka_unit_test(quadrature_is_exact_for_its_degree),
         cmocka_unit_test(facet_rules_close_the_cell),
         cmocka_unit_test(facet_nodes_lie_on_the_facet),
