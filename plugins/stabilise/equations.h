@@ -16,12 +16,13 @@ static int F(skew)(const pf_batch *b, const NUM *const *in, NUM *const *out)
     return PF_OK;
 }
 
-/* c r^2/sqrt(r^2 + mu^2) (div u) (div v), r = rho |u| h: c rho |u| h where convection prevails in a cell, of
- * second order in h where viscosity does */
+/* c r^2/sqrt(r^2 + mu^2) (div u) (div v), r = rho |w| h: c rho |w| h where convection prevails in a cell, of
+ * second order in h where viscosity does.  w is the velocity; in unsteady flow that of a step ago, so that the term
+ * is linear. */
 static int F(grad_div)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct stabilise *s = b->params;
-    const NUM *restrict u = in[0], *restrict div_u = in[1];
+    const NUM *restrict w = is_steady(b) ? in[0] : in[1], *restrict div_u = in[2];
     NUM *restrict div_v = out[0];
 
     PF_LANES_OF (b, i) {
@@ -29,7 +30,7 @@ static int F(grad_div)(const pf_batch *b, const NUM *const *in, NUM *const *out)
         NUM r2 = 0;
 
         for (uint32_t k = 0; k < b->dim; k++)
-            r2 += u[k * LD + i] * u[k * LD + i];
+            r2 += w[k * LD + i] * w[k * LD + i];
         r2 *= rho_h * rho_h;
         div_v[i] = s->grad_div * r2 / sqrt(r2 + s->viscosity * s->viscosity + NO_ZERO) * div_u[i];
     }
