@@ -29,7 +29,7 @@ static void outflow_with_backflow_lets_a_vortex_leave(void **state)
                6, "no convergence at t = ");
 }
 
-/* At the start |u|_L2 = 5.887 and |grad u|_L2 = 12.2; without the terms the latter is twice as large at t = 8, and
+/* At the start |u|_L2 = 5.887 and |grad u|_L2 = 7.05; without the terms the latter is 24 and more at t = 8, and
  * numbers overflow before t = 20. */
 static void energy_never_grows_by_itself(void **state)
 {
@@ -47,7 +47,7 @@ static void energy_never_grows_by_itself(void **state)
                      stop);
             now = error_of(arguments, "errors.u.l2");
             assert_between(now, 5, before);
-            assert_between(summary("o", "errors.u.h1"), 0, 12.2);
+            assert_between(summary("o", "errors.u.h1"), 0, 10);
             before = now;
         }
     }
