@@ -96,3 +96,27 @@ static int F(pressure)(const pf_batch *b, const NUM *const *in, NUM *const *out)
         }
     return PF_OK;
 }
+
+/* -beta/2 rho (u.n)_- u . v, (s)_- = min(s, 0): takes away the energy that fluid coming back through an outflow
+ * would bring */
+static int F(backflow)(const pf_batch *b, const NUM *const *in, NUM *const *out)
+{
+    const pf_fluid *f = b->params;
+    const NUM *restrict u = in[0], *restrict beta = in[1];
+    NUM *restrict v = out[0];
+
+    PF_LANES_OF (b, i) {
+        NUM inward = 0;
+
+        if (creal(beta[i]) < 0)
+            return b->host->fail(b, i, PF_FAIL,
+                                 "backflow is %g; it must not be negative (1 takes all of the energy)",
+                                 creal(beta[i]));
+        for (uint32_t a = 0; a < b->dim; a++)
+            inward += u[a * LD + i] * b->normal[a * LD + i];
+        inward = creal(inward) < 0 ? inward : 0;
+        for (uint32_t a = 0; a < b->dim; a++)
+            v[a * LD + i] = -0.5 * beta[i] * f->density * inward * u[a * LD + i];
+    }
+    return PF_OK;
+}

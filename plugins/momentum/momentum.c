@@ -8,6 +8,8 @@
  * says which fields they read, which test functions they meet, and what a user may set. */
 #include <plugflow/fluid.h>
 
+#include <complex.h>
+
 #include <plugflow/twin_real.h>
 #include "equations.h"
 #include <plugflow/twin_complex.h>
@@ -57,6 +59,27 @@ static int stress_jacobian(const pf_batch *b, const double *const *in, double *c
                 ds_dgrad[((a * d + k) * dd + k * d + a) * LD + i] += f->viscosity;
                 ds_dp[(a * d + k) * LD + i] = a == k ? -1 : 0;
             }
+    return PF_OK;
+}
+
+/* d(backflow)/du; nothing where fluid goes out */
+static int backflow_jacobian(const pf_batch *b, const double *const *in, double *const *jac)
+{
+    const pf_fluid *f = b->params;
+    const double *restrict u = in[0], *restrict beta = in[1];
+    double *restrict dv_du = jac[0];
+    const uint32_t d = b->dim;
+
+    PF_LANES_OF (b, i) {
+        double inward = 0, c;
+
+        for (uint32_t a = 0; a < d; a++)
+            inward += u[a * LD + i] * b->normal[a * LD + i];
+        c = inward < 0 ? -0.5 * beta[i] * f->density : 0;
+        for (uint32_t a = 0; a < d; a++)
+            for (uint32_t k = 0; k < d; k++)
+                dv_du[(a * d + k) * LD + i] = c * (u[a * LD + i] * b->normal[k * LD + i] + (a == k ? inward : 0));
+    }
     return PF_OK;
 }
 
@@ -144,14 +167,30 @@ static const pf_term pressure = {
     PF_EXAMPLES({"p_b = 10, n = (0.6, -0.8)", 2, fluid_2d, (double[]){10}, (double[]){6, -8}, 1e-15}),
 };
 
+static const pf_term backflow = {
+    PF_TERM(backflow),
+    .where = PF_FACET,
+    .flags = PF_BY_BOUNDARY | PF_CONTINUATION,
+    .doc = "-\\frac\\beta2\\rho\\,(u\\cdot n)_-\\,u\\cdot v",
+    .cite = "Bertoglio and Caiazzo 2014, J. Comput. Phys. 261:162; Braack and Mucha 2014, J. Comput. Math. 32:507",
+    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"backflow", NULL, PF_DATA, PF_SCALAR}),
+    PF_OUT({"v", "u", PF_VALUE, PF_VECTOR}),
+    FLUID,
+    PF_EXAMPLES({"n = (0.6, -0.8), u = (1, 2) comes in: u.n = -1", 2, fluid_2d, (double[]){1, 2, 1},
+                 (double[]){1, 2}, 1e-15},
+                {"u = (2, 0.25) goes out", 2, fluid_2d, (double[]){2, 0.25, 1}, (double[]){0, 0}, 1e-15}),
+    .jacobian = backflow_jacobian,
+};
+
 static const pf_plugin momentum = {
     PF_PLUGIN,
+    .min_minor = 2,
     .name = "momentum",
     .version = "1.0",
     .author = "plugflow",
     .license = "GPL-3.0-or-later",
     .doc = "momentum balance of an incompressible Newtonian fluid",
     PF_FIELDS(PF_FIELD_VELOCITY, PF_FIELD_PRESSURE),
-    PF_TERMS(&inertia, &convection, &stress, &body_force, &traction, &pressure),
+    PF_TERMS(&inertia, &convection, &stress, &body_force, &traction, &pressure, &backflow),
 };
 PF_ENTRY(momentum)

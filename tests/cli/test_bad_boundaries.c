@@ -129,6 +129,24 @@ static void periodic_boundaries_are_pairs(void **state)
     assert_bad_cases(list);
 }
 
+static void backflow_is_for_outflows_and_not_negative(void **state)
+{
+    static const bad_case list[] = {
+        {"8 boundary \"right\" { backflow = 1 }", 0, {"ok"}},
+        {"8 boundary \"right\" { pressure = 2, backflow = 1 }", 0, {"ok"}},
+        {"8 boundary \"right\" { backflow = -1 }",
+         5,
+         {"momentum.backflow", "backflow is -1; it must not be negative"}},
+        {"6 boundary \"*\" { u = {0, 0}, backflow = 1 }", 3, {"\"u\" and \"backflow\" are both given"}},
+        {"8 boundary \"right\" { natural = true, backflow = 1 }",
+         3,
+         {"natural = true says that nothing is prescribed"}},
+    };
+
+    (void)state;
+    assert_bad_cases(list);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -137,6 +155,7 @@ int main(void)
         cmocka_unit_test(values_have_the_components_of_the_field),
         cmocka_unit_test(conditions_do_not_contradict_each_other),
         cmocka_unit_test(periodic_boundaries_are_pairs),
+        cmocka_unit_test(backflow_is_for_outflows_and_not_negative),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

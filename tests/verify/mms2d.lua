@@ -4,7 +4,9 @@ case "Manufactured solution (2D)"
 local n = param("n", 8, "cells in each direction")
 local shape = param("shape", "quads", "quads or triangles")
 local curved = param("curved", false, "bend the cells")
-local mu, rho = 0.7, 1.3
+local mu = param("viscosity", 0.7, "of the fluid")
+local stabilise = param("stabilise", false, "with the terms of stabilise")
+local rho = 1.3
 local sin, cos, pi = math.sin, math.cos, math.pi
 
 local function velocity(x, y) return sin(2 * x) * cos(y + 0.5) / 2, -cos(2 * x) * sin(y + 0.5) end
@@ -30,5 +32,6 @@ end
 fluid { density = rho, viscosity = mu }
 term "continuity" {}
 term "momentum" { force = force }
+if stabilise then term "stabilise" {} end
 boundary "*" { u = velocity }
 exact { u = velocity, p = pressure }

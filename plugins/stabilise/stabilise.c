@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Terms that keep convection-dominated flow stable on meshes that do not resolve it.  They are consistent: they
+ * vanish for the exact solution.  The equations stand in equations.h, what they are good for in docs/theory.md. */
+#include <plugflow/fluid.h>
+
+#include <tgmath.h>
+
+#define NO_ZERO 1e-300 /* so that fluid without viscosity may be at rest */
+
+struct stabilise {
+    double density, viscosity; /* rho, kg/m^3; mu, Pa s           */
+    double grad_div;           /* strength, in rho |u| h          */
+};
+
+static inline int is_steady(const pf_batch *b)
+{
+    return !(b->shift > 0);
+}
+
+#include <plugflow/twin_real.h>
+#include "equations.h"
+#include <plugflow/twin_complex.h>
+#include "equations.h"
+
+static int skew_jacobian(const pf_batch *b, const double *const *in, double *const *jac)
+{
+    const struct stabilise *s = b->params;
+    const double *restrict u = in[0], *restrict div_u = in[1];
+    double *restrict dv_du = jac[0], *restrict dv_ddiv = jac[1];
+
+    for (uint32_t a = 0; a < b->dim; a++)
+        PF_LANES_OF (b, i) {
+            dv_du[(a * b->dim + a) * LD + i] = 0.5 * s->density * div_u[i];
+            dv_ddiv[a * LD + i] = 0.5 * s->density * u[a * LD + i];
+        }
+    return PF_OK;
+}
+
+/* f = r^2/sqrt(m), m = r^2 + mu^2;  df/dw = rho^2 h^2 w (r^2 + 2 mu^2)/m^(3/2), which counts where w is u */
+static int grad_div_jacobian(const pf_batch *b, const double *const *in, double *const *jac)
+{
+    const struct stabilise *s = b->params;
+    const double *restrict w = is_steady(b) ? in[0] : in[1], *restrict div_u = in[2];
+    const double follows = is_steady(b) ? 1 : 0;
+    double *restrict dq_du = jac[0], *restrict dq_ddiv = jac[2];
+
+    PF_LANES_OF (b, i) {
+        const double rho_h = s->density * b->h[i], mu2 = s->viscosity * s->viscosity + NO_ZERO;
+        double r2 = 0, root, slope;
+
+        for (uint32_t k = 0; k < b->dim; k++)
+            r2 += w[k * LD + i] * w[k * LD + i];
+        r2 *= rho_h * rho_h;
+        root = sqrt(r2 + mu2);
+        slope = follows * s->grad_div * rho_h * rho_h * (1 + mu2 / (r2 + mu2)) / root * div_u[i];
+        for (uint32_t k = 0; k < b->dim; k++)
+            dq_du[k * LD + i] = slope * w[k * LD + i];
+        dq_ddiv[i] = s->grad_div * r2 / root;
+    }
+    return PF_OK;
+}
+
+static const pf_term skew = {
+    PF_TERM(skew),
+    .where = PF_CELL,
+    .flags = PF_CONTINUATION,
+    .doc = "\\frac12\\rho\\,(\\nabla\\cdot u)\\,u\\cdot v",
+    .cite = "Temam 1968, Bull. Soc. Math. France 96:115",
+    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"div_u", "u", PF_DIV, PF_SCALAR}),
+    PF_OUT({"v", "u", PF_VALUE, PF_VECTOR}),
+    PF_PARAMS(struct stabilise, PF_DENSITY(struct stabilise)),
+    PF_EXAMPLES({"rho = 2, u = (1, 2), div u = 3", 2, (double[]){2}, (double[]){1, 2, 3}, (double[]){3, 6}, 1e-15}),
+    .jacobian = skew_jacobian,
+};
+
+static const pf_term grad_div = {
+    PF_TERM(grad_div),
+    .where = PF_CELL,
+    .flags = PF_CONTINUATION,
+    .doc = "c\\,\\frac{r^2}{\\sqrt{r^2+\\mu^2}}\\,(\\nabla\\cdot u)(\\nabla\\cdot v),\\ r=\\rho|w|h",
+    .cite = "Olshanskii, Lube, Heister and Löwe 2009, Comput. Methods Appl. Mech. Eng. 198:3975",
+    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"old_u", "u", PF_OLD, PF_VECTOR}, {"div_u", "u", PF_DIV, PF_SCALAR}),
+    PF_OUT({"div_v", "u", PF_DIV, PF_SCALAR}),
+    PF_PARAMS(struct stabilise, PF_DENSITY(struct stabilise), PF_VISCOSITY(struct stabilise),
+              PF_NUMBER(struct stabilise, grad_div, "1", "strength of grad-div, in rho |u| h", .dflt = 0.1,
+                        PF_NOT_NEGATIVE)),
+    .jacobian = grad_div_jacobian,
+};
+
+static const pf_plugin stabilise = {
+    PF_PLUGIN,
+    .name = "stabilise",
+    .version = "1.0",
+    .author = "plugflow",
+    .license = "GPL-3.0-or-later",
+    .doc = "stability of convection on meshes that do not resolve it",
+    PF_FIELDS(PF_FIELD_VELOCITY),
+    PF_TERMS(&skew, &grad_div),
+};
+PF_ENTRY(stabilise)
