@@ -4,7 +4,7 @@
 case "Drafting, kissing, tumbling, fast"
 
 local n = param("n", 16, "cells per cm")
-local dt = param("dt", 0.002, "time step, s")
+local dt = param("dt", 0.001, "time step, s")
 local stop = param("stop", 0.25, "end, s")
 local formulation = param("formulation", "sharp", "sharp or conservative")
 local d, rho, mu = 0.25, 1.5, 0.01
