@@ -10,6 +10,10 @@ local n = param("n", 16, "cells across the channel, an even number")
 local kind = param("mesh", "box", "box (inflow at the step) or channel (inlet upstream of it)")
 local length, fine = 30, 15 -- cells 2.5 / n long up to `fine`, from there on twice as long
 
+if kind ~= "box" and kind ~= "channel" then error('mesh "' .. kind .. '": there are box and channel') end
+if kind == "channel" and n ~= 16 then error("n: the cells of the mesh with a channel are set in mesh/backward_step.geo") end
+if n % 2 ~= 0 then error("n = " .. n .. ": an even number puts the corner of the step on a node") end
+
 if kind == "channel" then
   mesh { file = "mesh/backward_step.geo" }
 else

@@ -7,7 +7,7 @@ local re = param("re", 100, "Reynolds number")
 local n = param("n", 32, "cells in each direction")
 local grading = param("grading", 0, "0: equal cells; larger: finer at the walls, 1.5 by a factor of 5")
 local points = param("points", 129, "places on each centre line")
-local cells = grading > 0 and clustered(0, 1, n, grading) or n
+local cells = grading ~= 0 and clustered(0, 1, n, grading) or n
 
 mesh  { box = {{0, 0}, {1, 1}}, cells = {cells, cells} }
 fluid { density = 1, viscosity = 1 / re }

@@ -1,8 +1,8 @@
 -- A disk that falls fast: density 1.5 in a fluid ten times thinner than in falling_disk (Glowinski et al. 2001, J. Comput. Phys.
--- 169:363, second case). Published largest Reynolds numbers rho_P d |U| / mu: 438.6 and 450.7 (Glowinski et al.), 442 and 466 (Wan and
--- Turek 2006, Int. J. Numer. Meth. Fluids 51:531), the larger ones on the finer meshes; there the wake soon sheds vortices. Expect
--- 464 at 0.15 s, 486 at 0.19 s, 507 at 0.25 s on the default mesh: on it the wake stays symmetric, the disk falls straight (x within
--- 0.015 of 1 all the time). Two and a half minutes; a step of 2 ms fails at 0.2 s, when waves in the wake are as long as cells.
+-- 169:363). Published largest Reynolds numbers rho_P d |U| / mu lie between 438 and 466 and grow as the mesh gets finer (Glowinski et
+-- al.; Wan and Turek 2006, Int. J. Numer. Meth. Fluids 51:531). Expect 464 at 0.15 s, 486 at 0.19 s, 507 at 0.25 s on the default mesh:
+-- the wake stays symmetric, the disk falls straight (x within 0.015 of 1). Two and a half minutes; with a step of 2 ms Newton
+-- fails at 0.2 s, when waves in the wake have become as short as cells.
 case "Disk falling fast"
 
 local n = param("n", 16, "cells per cm")
