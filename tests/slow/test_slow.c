@@ -42,6 +42,34 @@ static void cavity_128_agrees_with_ghia_at_re_1000(void **state)
     cavity(1000, 3, 0.02);
 }
 
+/* 64^2 cells, finer at the walls; from rest by continuation. */
+static void cavity_at_high_re(int re, int column, double largest)
+{
+    ghia_error e;
+
+    assert_ran(
+        plugflow("run cases/cavity2d.lua --quiet --set n=64 --set grading=1.5 --set points=201 --set re=%d --out "
+                 "%s/cavity",
+                 re, scratch()),
+        0, NULL);
+    e = erturk_compare("cavity", column);
+    print_message("# cavity 64 x 64, Re %d: largest difference %.4f, median %.4f; %g Newton iterations, %g s\n", re,
+                  e.largest, e.median, summary("cavity", "newton_iterations"), summary("cavity", "seconds.total"));
+    assert_between(e.largest, 0, largest);
+}
+
+static void cavity_64_agrees_with_erturk_at_re_5000(void **state)
+{
+    (void)state;
+    cavity_at_high_re(5000, 3, 0.01);
+}
+
+static void cavity_64_agrees_with_erturk_at_re_10000(void **state)
+{
+    (void)state;
+    cavity_at_high_re(10000, 5, 0.02);
+}
+
 /* u on the vertical centre line at Re = 1000: from 64^2 to 128^2 it changes by less than 5e-4. */
 static void cavity_at_re_1000_has_converged_at_64(void **state)
 {
@@ -81,6 +109,20 @@ static void dfg_2d_2_lies_in_the_published_intervals(void **state)
     assert_between(summary("dfg", "cl_amplitude"), 0.99, 1.01);
     assert_between(2 * summary("dfg", "cl_amplitude") / 2.007871, 0.99, 1.01);
     assert_between(summary("dfg", "strouhal"), 0.295, 0.305);
+}
+
+/* John 2004, Int. J. Numer. Meth. Fluids 44:777. */
+static void dfg_2d_3_has_the_published_extremes(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("run cases/cylinder2d.lua --quiet --set case=2D-3 --out %s/dfg", scratch()), 0, NULL);
+    print_message("# DFG 2D-3: cd %.5f at %.4f, cl %.5f at %.4f, dp %.5f; %g s\n", summary("dfg", "results.cd_max"),
+                  summary("dfg", "results.cd_at"), summary("dfg", "results.cl_max"),
+                  summary("dfg", "results.cl_at"), summary("dfg", "results.dp"), summary("dfg", "seconds.total"));
+    assert_between(summary("dfg", "results.cd_max") / 2.950921575, 0.9998, 1.0002);
+    assert_between(summary("dfg", "results.cl_max") / 0.47795, 0.985, 1.015);
+    assert_between(summary("dfg", "results.cl_at") - 5.693125, -0.02, 0.02);
+    assert_between(summary("dfg", "results.dp") / -0.1116, 0.99, 1.01);
 }
 
 static void dfg_3d_1z_is_a_few_per_cent_off_on_its_coarse_mesh(void **state)
@@ -162,6 +204,9 @@ int main(void)
         cmocka_unit_test(a_settling_sphere_agrees_with_the_experiment),
         cmocka_unit_test(cavity_at_re_1000_has_converged_at_64),
         cmocka_unit_test(dfg_2d_2_lies_in_the_published_intervals),
+        cmocka_unit_test(dfg_2d_3_has_the_published_extremes),
+        cmocka_unit_test(cavity_64_agrees_with_erturk_at_re_5000),
+        cmocka_unit_test(cavity_64_agrees_with_erturk_at_re_10000),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

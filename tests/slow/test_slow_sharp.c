@@ -164,6 +164,28 @@ static void dfg_2d_2_on_a_box_mesh(void **state)
     assert_between(summary("dfg", "results.strouhal"), 0.295, 0.305);
 }
 
+/* Feng, Hu and Joseph 1994: 0.463 at t = 60; a second curve of theirs has 0.460. */
+static void a_disk_drifts_to_the_middle_of_couette_flow(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("run cases/couette_migration.lua --quiet --out %s/drift", scratch()), 0, NULL);
+    print_message("# disk in Couette flow: y = %.4f, %.4f, %.4f at 20, 40, 60\n", summary("drift", "results.y_20"),
+                  summary("drift", "results.y_40"), summary("drift", "results.y_60"));
+    assert_between(summary("drift", "results.y_20"), 0.33, 0.355);
+    assert_between(summary("drift", "results.y_40"), 0.405, 0.43);
+    assert_between(summary("drift", "results.y_60"), 0.45, 0.47);
+}
+
+/* Pan and Glowinski 2002: 0.2723 in the end. */
+static void a_disk_drifts_off_the_middle_of_poiseuille_flow(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("run cases/poiseuille_migration.lua --quiet --out %s/drift", scratch()), 0, NULL);
+    print_message("# disk in Poiseuille flow: y = %.4f after a way of %.2f\n", summary("drift", "results.y"),
+                  summary("drift", "results.way"));
+    assert_between(summary("drift", "results.y") - 0.2723, -0.01, 0.01);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -175,6 +197,8 @@ int main(void)
         cmocka_unit_test(many_bodies_meet_without_a_failed_run),
         cmocka_unit_test(settling_spheres_agree_with_the_experiment),
         cmocka_unit_test(dfg_2d_2_on_a_box_mesh),
+        cmocka_unit_test(a_disk_drifts_to_the_middle_of_couette_flow),
+        cmocka_unit_test(a_disk_drifts_off_the_middle_of_poiseuille_flow),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -76,6 +76,37 @@ static void dfg_2d_1_has_the_published_coefficients(void **state)
     assert_between(summary("cylinder", "dp") / 0.11752016697 - 1, -1e-3, 1e-3);
 }
 
+/* Gartling 1990, Int. J. Numer. Meth. Fluids 11:953; Erturk 2008, Comput. Fluids 37:633, in heights of the channel.
+ * Erturk's inlet is long, the mesh's two heights. */
+static void step_at_re_800_has_the_published_eddies(void **state)
+{
+    static const struct {
+        const char *mesh;
+        double reattachment, separation, upper, within;
+    } flow[] = {{"box", 6.10, 4.85, 10.48, 0.05}, {"channel", 11.834 / 2, 9.476 / 2, 20.553 / 2, 0.12}};
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        double within = flow[k].within;
+
+        assert_ran(
+            plugflow("run cases/backward_step.lua --quiet --set mesh=%s --out %s/step", flow[k].mesh, scratch()), 0,
+            NULL);
+        print_message("# step, %s: %.4f, %.4f to %.4f; %g Newton iterations\n", flow[k].mesh,
+                      summary("step", "results.reattachment"), summary("step", "results.upper_separation"),
+                      summary("step", "results.upper_reattachment"), summary("step", "newton_iterations"));
+        assert_between(summary("step", "results.reattachment") - flow[k].reattachment, -within, within);
+        assert_between(summary("step", "results.upper_separation") - flow[k].separation, -within, within);
+        assert_between(summary("step", "results.upper_reattachment") - flow[k].upper, -within, within);
+    }
+}
+
+static void cylinder_has_three_cases(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("check cases/cylinder2d.lua --set case=2D-4"), 3, "there are 2D-1, 2D-2 and 2D-3");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -84,6 +115,8 @@ int main(void)
         cmocka_unit_test(steady_cases_go_on_by_continuation),
         cmocka_unit_test(newton_is_quadratic_on_the_3d_cavity),
         cmocka_unit_test(dfg_2d_1_has_the_published_coefficients),
+        cmocka_unit_test(step_at_re_800_has_the_published_eddies),
+        cmocka_unit_test(cylinder_has_three_cases),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

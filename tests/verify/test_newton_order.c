@@ -31,6 +31,13 @@ static void shipped_cases_are_not_suspected_of_a_wrong_jacobian(void **state)
                                       "cylinder2d",
                                       "falling_disk.lua --set stop=0.1",
                                       "two_disks.lua --set stop=0.05",
+                                      "backward_step.lua --set n=8",
+                                      "taylor_green3d.lua --set n=4 --set stop=0.2",
+                                      "cylinder2d.lua --set case=2D-3 --set stop=0.03",
+                                      "disk_re450.lua --set stop=0.01",
+                                      "dkt_re450.lua --set stop=0.01",
+                                      "couette_migration.lua --set stop=1",
+                                      "poiseuille_migration.lua --set stop=5",
                                       "falling_disk.lua --set stop=0.05 --set formulation=conservative"};
 
     (void)state;
