@@ -69,6 +69,7 @@ static int log_solve(run *r, double t, double dt, const newton_report *report, e
         text_number(&s, report->history[i]);
     }
     text_add(&s, "]");
+    energy_log(r, &s);
     if (r->p->bodies.n) {
         text_add(&s, ", \"particles\": %d, \"kinetic_energy\": ", r->p->bodies.n);
         text_number(&s, particles_energy(r));
@@ -193,6 +194,7 @@ static int steady(run *r, const volatile sig_atomic_t *stop, error *err)
         TRY(bodies_fill(&p->bodies, p->bodies.now, p->state.x, err));
     take_solution(r);
     TRY(stepper_steady(r->stepper, err));
+    TRY(energy_step(r, err));
     TRY(log_solve(r, 0, 0, &report, err));
     warn_defect(r);
     TRY(output_take(r, 0, err));
@@ -220,6 +222,7 @@ static int one_step(run *r, double next, error *err)
     warn_singular(r, &s->report);
     take_solution(r);
     warn_defect(r);
+    TRY(energy_step(r, err));
     TRY(tell_warnings(r, err));
     TRY(log_solve(r, p->state.t, p->state.dt_previous, &s->report, err));
     TRY(output_take(r, p->state.t, err));
@@ -344,6 +347,7 @@ static int prepare(run *r, error *err)
     r->stepper->order = p->description.time.order;
     r->stepper->geometry_iterations = p->description.time.geometry_iterations;
     memcpy(r->x, p->state.x, (size_t)p->space.n_dof * sizeof *r->x);
+    TRY(energy_open(r, err));
     TRY(norms_check(p, err));
     TRY(output_open(r, err));
     TRY(log_start(r, err));
@@ -380,9 +384,11 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
             status = err->code;
         if (log_end(&r, status ? &later : err) && !status)
             status = err->code;
+        energy_say(&r);
         if (!status)
             say(&r, "  %s", r.results.s ? r.results.s : "");
     }
+    energy_close(&r);
     output_close(&r);
     stepper_destroy(&stepper);
     return status;

@@ -80,9 +80,10 @@ static int react(stepper *p, newton_time time, const double *x, error *err)
     gauge_zero_mean(p->system, time.bodies, p->level);
     for (int i = 0; i < REACTIONS && p->reaction[i]; i++) {
         time.only = only[i];
+        time.power = i == REACTION_ALL ? power_meter_ask(p->meter) : NULL;
         TRY(newton_residual(p->system, &time, p->level, p->reaction[i], err));
     }
-    return 0;
+    return power_meter_read(p->meter, p->level, p->reaction[REACTION_ALL], err);
 }
 
 int stepper_steady(stepper *p, error *err)
@@ -170,6 +171,7 @@ static int start(stepper *p, double dt, int *converged, error *err)
     if (p->bodies->n)
         memcpy(p->idle, p->bodies->now->idle, (size_t)n * sizeof *p->idle);
     TRY(step(p, from, half, 1, dt / 2, converged, err));
+    power_meter_hold(p->meter, dt / 2);
     if (*converged)
         TRY(step(p, half, full, 1, dt / 2, converged, err));
     if (!*converged)
@@ -213,9 +215,11 @@ static int advance(stepper *p, double dt, int halvings, error *err)
     else
         TRY(step(p, now, &p->trial[0], p->order, dt, &converged, err));
     if (converged) {
+        power_meter_accept(p->meter, p->order, p->trial[0].dt_previous);
         accept(p);
         return 0;
     }
+    power_meter_drop(p->meter);
     linear_forget(&p->system->linear);
     if (halvings == HALVINGS)
         return error_set(err, ERR_CONVERGE, "no convergence at t = %.6g with a step of %.3g, %d times halved: %s",

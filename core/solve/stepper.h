@@ -5,6 +5,7 @@
 #define SOLVE_STEPPER_H
 
 #include "body/body.h"
+#include "solve/power_meter.h"
 #include "solve/solve.h"
 #include "state/state.h"
 
@@ -29,6 +30,7 @@ typedef struct stepper {
     double *history, *level;                        /* [n_dof] */
     uint8_t *idle;                                  /* [n_dof] of the first of the steps that are extrapolated */
     double *reaction[REACTIONS], *saved[REACTIONS]; /* [n_dof]; without bodies only that of all terms */
+    power_meter *meter;                             /* reads at the end of every step; NULL: none */
     newton_report report;
     enum too_far too_far;   /* why the last step was refused before or after it was solved */
     int said[FAR_BODY + 1]; /* warnings given */

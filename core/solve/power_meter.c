@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/power_meter.h"
+
+#include "solve/vector.h"
+#include "space/corners.h"
+#include "space/evaluate.h"
+
+#include <string.h>
+
+static int is_velocity(const field_spec *f)
+{
+    if (f->support == PF_ON_PARTICLE)
+        return f->shape != PF_SCALAR;
+    return f->support == PF_ON_MESH && f->shape == PF_VECTOR && f->reaction && strcmp(f->reaction, "force") == 0;
+}
+
+int power_meter_create(power_meter *m, const assembly *a, error *err)
+{
+    memset(m, 0, sizeof *m);
+    m->space = a->space;
+    m->n = POWERS * a->n_use + 2;
+    ARENA_NEW(&m->memory, m->reading, m->n, err);
+    ARENA_NEW(&m->memory, m->last, m->n, err);
+    ARENA_NEW(&m->memory, m->held, m->n, err);
+    ARENA_NEW(&m->memory, m->work, m->n, err);
+    m->now.use = (double(*)[POWERS])m->reading;
+    m->prescribed = m->reading + m->n - 2;
+    m->carried = m->reading + m->n - 1;
+    for (int f = 0; f < a->space->n_field; f++)
+        m->now.fields |= is_velocity(&a->space->field[f]) ? 1u << f : 0;
+    return 0;
+}
+
+void power_meter_destroy(power_meter *m)
+{
+    arena_free(&m->memory);
+    memset(m, 0, sizeof *m);
+}
+
+assembly_power *power_meter_ask(power_meter *m)
+{
+    return m ? &m->now : NULL;
+}
+
+/* Whether the field is not zero all over a facet. */
+static int flows(const space *s, int field, const mesh_facet *f, const double *x)
+{
+    const mesh *m = s->mesh;
+    int any = 0;
+
+    for (int i = 0; i < m->type->facet_nodes; i++)
+        for (int k = 0; k < m->dim; k++) {
+            int32_t node = m->cell[(int64_t)f->cell * m->type->n_node + m->type->facet[f->local][i]];
+
+            any |= x[s->first[field][node] + k] != 0;
+        }
+    return any;
+}
+
+/* int 1/2 |u|^2 u . n over the boundary. */
+static int carry(const space *s, int field, const double *x, double *sum, error *err)
+{
+    const mesh *m = s->mesh;
+    fe_rule rule = {0};
+    double tangent[2][3];
+    int orient = 0, local = -1;
+
+    for (int64_t f = 0; f < m->n_facet; f++) {
+        if (!flows(s, field, &m->facet[f], x))
+            continue;
+        if (m->facet[f].local != local) /* facets are sorted by it */
+            TRY(fe_rule_facet(m->type, m->facet[f].local, m->type->simplex && m->dim == 3 ? 5 : 7, &rule, tangent,
+                              &orient, err));
+        local = m->facet[f].local;
+        for (int q = 0; q < rule.n; q++) {
+            double at[3] = {0}, ds[3], u[VALUE_MAX] = {0}, square = 0, through = 0;
+
+            facet_element(m, f, rule.x[q], (const double(*)[3])tangent, orient, at, ds);
+            space_evaluate(s, field, x, m->facet[f].cell, rule.x[q], &(point_values){.value = u});
+            for (int a = 0; a < m->dim; a++) {
+                square += u[a] * u[a];
+                through += u[a] * ds[a];
+            }
+            *sum += 0.5 * rule.w[q] * square * through;
+        }
+    }
+    return 0;
+}
+
+int power_meter_read(power_meter *m, const double *x, const double *reaction, error *err)
+{
+    if (!m)
+        return 0;
+    *m->prescribed = *m->carried = 0;
+    for (int f = 0; f < m->space->n_field; f++) {
+        if (!(m->now.fields >> f & 1))
+            continue;
+        *m->prescribed += vector_prescribed_dot(m->space, f, reaction, x);
+        if (m->space->field[f].support == PF_ON_MESH)
+            TRY(carry(m->space, f, x, m->carried, err));
+    }
+    return 0;
+}
+
+void power_meter_hold(power_meter *m, double dt)
+{
+    if (!m)
+        return;
+    for (int i = 0; i < m->n; i++)
+        m->held[i] = dt * m->reading[i];
+    m->holds = 1;
+}
+
+void power_meter_drop(power_meter *m)
+{
+    if (m)
+        m->holds = 0;
+}
+
+void power_meter_accept(power_meter *m, int order, double dt)
+{
+    if (!m)
+        return;
+    for (int i = 0; i < m->n; i++)
+        if (m->holds)
+            m->work[i] += m->held[i] + 0.5 * dt * m->reading[i];
+        else if (order == 1 || !m->has_last)
+            m->work[i] += dt * m->reading[i];
+        else
+            m->work[i] += 0.5 * dt * (m->last[i] + m->reading[i]);
+    memcpy(m->last, m->reading, (size_t)m->n * sizeof *m->last);
+    m->has_last = 1;
+    m->holds = 0;
+}
