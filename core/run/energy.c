@@ -7,8 +7,8 @@
  * At the solution of a step the powers of all terms add up to that of the reactions (solve/power_meter.h).  What
  * this leaves out is made, or lost, by the discretisation: the change of kinetic energy less the work of du/dt (the
  * time scheme's), and what leaves through the boundary less the work of convection (1/2 rho |u|^2 div u, which
- * vanishes for the flow but not for its approximation).  In a domain that moves with bodies only the sum of both
- * has a meaning. */
+ * vanishes for the flow but not for its approximation).  Where the domain of the fluid moves with bodies,
+ * what their surfaces sweep is a part of both, once with each sign. */
 #include "run/run.h"
 
 #include "solve/power_meter.h"
@@ -18,24 +18,26 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Energy that the scheme may make, of the largest kinetic energy and what was dissipated. */
-#define MOST_MADE 0.01
+/* Energy that convection may make: parts of the largest kinetic energy and of what was dissipated. */
+#define MOST_MADE          1e-3
+#define MOST_OF_DISSIPATED 0.05
 
 struct flow_energy {
     power_meter meter;
     int known;                 /* the kinetic energy and its balance can be had       */
-    int moving;                /* bodies move: the domain of the fluid does            */
     int carries;               /* some term is convective                              */
     int field;                 /* the velocity, or -1                                  */
     double density, viscosity; /* 0: there is none                        */
     double start, now, largest;
+    double (*work)[POWERS];    /* of the meter, up to the last step of the run */
     double reynolds, at[3], t; /* largest cell Reynolds number, where, when */
     int warned;
 };
 
 /* What the meter's readings add up to. */
 typedef struct energy_sums {
-    double in, out, inertia, convection, dissipated;
+    double in, out, dissipated;
+    double by_time, by_convection; /* made by the scheme */
 } energy_sums;
 
 enum role { ROLE_NONE, ROLE_INERTIA, ROLE_CONVECTION, ROLE_GIVEN, ROLE_OTHER };
@@ -61,38 +63,41 @@ static enum role role_of(const struct flow_energy *e, const space *s, const term
     return unknowns ? ROLE_OTHER : ROLE_GIVEN;
 }
 
+/* Of the steps so far. */
 static energy_sums add_up(const run *r)
 {
     const struct flow_energy *e = r->energy;
     const assembly *a = &r->p->system.assembly;
-    const double(*work)[POWERS] = (const double(*)[POWERS])e->meter.work;
-    energy_sums b = {.in = e->meter.work[e->meter.n - 2],
-                     .out = e->carries ? e->density * e->meter.work[e->meter.n - 1] : 0};
+    const double *meter = e->work[a->n_use], density = e->carries ? e->density : 0;
+    energy_sums b = {.in = meter[METER_PRESCRIBED], .out = density * meter[METER_CARRIED]};
+    double inertia = density * meter[METER_SWEPT], convection = -b.out - inertia;
 
     for (int i = 0; i < a->n_use; i++)
         switch (role_of(e, &r->p->space, a->use[i])) {
         case ROLE_INERTIA: /* without the rates its weight is left */
-            b.inertia += work[i][POWER_ALL] - work[i][POWER_REST];
-            b.in -= work[i][POWER_REST];
+            inertia += e->work[i][POWER_ALL] - e->work[i][POWER_REST];
+            b.in -= e->work[i][POWER_REST];
             break;
         case ROLE_CONVECTION:
-            b.convection += work[i][POWER_ALL];
+            convection += e->work[i][POWER_ALL];
             break;
         case ROLE_GIVEN:
-            b.in -= work[i][POWER_ALL];
+            b.in -= e->work[i][POWER_ALL];
             break;
         case ROLE_OTHER:
-            b.dissipated += work[i][POWER_ALL];
+            b.dissipated += e->work[i][POWER_ALL];
             break;
         default:
             break;
         }
+    b.by_time = e->now - e->start - inertia;
+    b.by_convection = -convection;
     return b;
 }
 
-static double made(const struct flow_energy *e, const energy_sums *b)
+static double made(const energy_sums *b)
 {
-    return e->now - e->start - b->inertia + b->out - b->convection;
+    return b->by_time + b->by_convection;
 }
 
 static double kinetic(const run *r)
@@ -122,15 +127,6 @@ static int take_kinetic(run *r, error *err)
     return 0;
 }
 
-static int moves(const body_spec *b, int n)
-{
-    int any = 0;
-
-    for (int k = 0; k < n; k++)
-        any |= b[k].motion != BODY_FIXED;
-    return any;
-}
-
 int energy_open(run *r, error *err)
 {
     problem *p = r->p;
@@ -140,6 +136,7 @@ int energy_open(run *r, error *err)
     r->energy = e;
     e->field = -1;
     TRY(power_meter_create(&e->meter, &p->system.assembly, err));
+    ARENA_NEW(&r->memory, e->work, e->meter.n_use + 1, err);
     for (int f = 0; f < p->space.n_field && e->field < 0; f++)
         if (e->meter.now.fields >> f & 1 && p->space.field[f].support == PF_ON_MESH)
             e->field = f;
@@ -150,7 +147,6 @@ int energy_open(run *r, error *err)
         e->carries |= role_of(e, &p->space, p->system.assembly.use[i]) == ROLE_CONVECTION;
     if (!p->description.time.unsteady)
         return 0;
-    e->moving = moves(p->bodies.spec, p->bodies.n);
     TRY(take_kinetic(r, err));
     e->start = e->largest = e->now;
     e->known = isfinite(e->start) && (!e->carries || e->density > 0);
@@ -210,23 +206,23 @@ static void take_reynolds(run *r)
     }
 }
 
-/* A warning, once, if the scheme has made more energy than one may pass over. */
+/* A warning, once, if convection has made more energy than one may pass over. */
 static void warn_made(run *r)
 {
     struct flow_energy *e = r->energy;
     energy_sums b = add_up(r);
-    double much = made(e, &b), of = fmax(e->largest, b.dissipated);
 
-    if (e->warned || !(much > MOST_MADE * of))
+    if (e->warned ||
+        !(b.by_convection > MOST_MADE * e->largest && b.by_convection > MOST_OF_DISSIPATED * b.dissipated))
         return;
     e->warned = 1;
     warning_add(
         &r->p->warnings,
-        "t = %.6g: the mesh does not resolve this flow: its approximation has made %.3g J of kinetic energy out "
-        "of nothing so far, %.2g %% of %s (%.3g J); the largest cell Reynolds number is %.3g at %s.  Refine the "
-        "mesh there, or switch on a term that stabilises convection (docs/cases.md)",
-        r->p->state.t, much, 100 * much / of, of > e->largest ? "what was dissipated" : "the largest there was", of,
-        e->reynolds, text_point(e->at, r->p->mesh.dim).s);
+        "t = %.6g: the mesh does not resolve this flow: its convection has made %.3g J of kinetic energy out of "
+        "nothing (%.2g %% of the largest there was; dissipated were %.3g J); the largest cell Reynolds number is "
+        "%.3g, at %s.  Refine the mesh there, or switch on a term that stabilises convection (docs/cases.md)",
+        r->p->state.t, b.by_convection, 100 * b.by_convection / e->largest, b.dissipated, e->reynolds,
+        text_point(e->at, r->p->mesh.dim).s);
 }
 
 int energy_step(run *r, error *err)
@@ -239,6 +235,7 @@ int energy_step(run *r, error *err)
     if (!e->known)
         return 0;
     e->now = kinetic(r);
+    memcpy(e->work, e->meter.work, (size_t)(e->meter.n_use + 1) * sizeof *e->work);
     if (r->result->steps == 1 &&
         r->stepper->order == 2) /* that step's solution is extrapolated from the one read */
         TRY(take_kinetic(r, err));
@@ -257,7 +254,7 @@ void energy_log(const run *r, text *s)
         text_add(s, ", \"energy\": ");
         text_number(s, e->now);
         text_add(s, ", \"energy_made\": ");
-        text_number(s, made(e, &b));
+        text_number(s, made(&b));
     }
     if (e->reynolds > 0) {
         text_add(s, ", \"largest_cell_reynolds\": ");
@@ -275,7 +272,6 @@ static void member(text *t, const char *name, double v)
 static void add_terms(const run *r, text *t)
 {
     const assembly *a = &r->p->system.assembly;
-    const double(*work)[POWERS] = (const double(*)[POWERS])r->energy->meter.work;
     int n = 0;
 
     for (int i = 0; i < a->n_use; i++) {
@@ -286,7 +282,7 @@ static void add_terms(const run *r, text *t)
             continue;
         for (int k = a->n_use - 1; k >= 0; k--)
             if (a->use[k]->term == a->use[i]->term) {
-                sum += work[k][POWER_ALL];
+                sum += r->energy->work[k][POWER_ALL];
                 first = k;
             }
         if (first != i)
@@ -331,15 +327,13 @@ void energy_summary(const run *r, text *t)
     text_add(t, "}, ");
     member(t, "convected_out", b.out);
     text_add(t, ", ");
-    member(t, "made_by_scheme", made(e, &b));
+    member(t, "made_by_scheme", made(&b));
     text_add(t, ", ");
-    if (!e->moving) {
-        member(t, "made_by_time", e->now - e->start - b.inertia);
-        text_add(t, ", ");
-        member(t, "made_by_convection", b.out - b.convection);
-        text_add(t, ", ");
-    }
-    member(t, "made_relative", e->largest > 0 ? made(e, &b) / e->largest : 0);
+    member(t, "made_by_time", b.by_time);
+    text_add(t, ", ");
+    member(t, "made_by_convection", b.by_convection);
+    text_add(t, ", ");
+    member(t, "made_relative", e->largest > 0 ? made(&b) / e->largest : 0);
     text_add(t, "}");
 }
 
@@ -354,8 +348,8 @@ void energy_say(const run *r)
                  "  kinetic energy %.4g J at the start, %.4g at the end: %.4g put in, %.4g dissipated, %.4g "
                  "carried out, "
                  "%.2g made by the scheme (%.2g %% of the largest)%s",
-                 e->start, e->now, b.in, b.dissipated, b.out, made(e, &b),
-                 e->largest > 0 ? 100 * made(e, &b) / e->largest : 0, e->reynolds > 0 ? "; " : "");
+                 e->start, e->now, b.in, b.dissipated, b.out, made(&b),
+                 e->largest > 0 ? 100 * made(&b) / e->largest : 0, e->reynolds > 0 ? "; " : "");
     if (e->reynolds > 0)
         text_add(&t, "%slargest cell Reynolds number %.3g at %s", e->known ? "" : "  ", e->reynolds,
                  text_point(e->at, r->p->mesh.dim).s);

@@ -18,14 +18,11 @@ int power_meter_create(power_meter *m, const assembly *a, error *err)
 {
     memset(m, 0, sizeof *m);
     m->space = a->space;
-    m->n = POWERS * a->n_use + 2;
-    ARENA_NEW(&m->memory, m->reading, m->n, err);
-    ARENA_NEW(&m->memory, m->last, m->n, err);
-    ARENA_NEW(&m->memory, m->held, m->n, err);
-    ARENA_NEW(&m->memory, m->work, m->n, err);
-    m->now.use = (double(*)[POWERS])m->reading;
-    m->prescribed = m->reading + m->n - 2;
-    m->carried = m->reading + m->n - 1;
+    m->n_use = a->n_use;
+    ARENA_NEW(&m->memory, m->now.use, m->n_use + 1, err);
+    ARENA_NEW(&m->memory, m->last, m->n_use + 1, err);
+    ARENA_NEW(&m->memory, m->held, m->n_use + 1, err);
+    ARENA_NEW(&m->memory, m->work, m->n_use + 1, err);
     for (int f = 0; f < a->space->n_field; f++)
         m->now.fields |= is_velocity(&a->space->field[f]) ? 1u << f : 0;
     return 0;
@@ -57,7 +54,20 @@ static int flows(const space *s, int field, const mesh_facet *f, const double *x
     return any;
 }
 
-/* int 1/2 |u|^2 u . n over the boundary. */
+/* 1/2 |u|^2 u . n at a point of a cell. */
+static double flux(const space *s, int field, const double *x, int64_t cell, const double *xi, const double *n)
+{
+    double u[VALUE_MAX] = {0}, square = 0, through = 0;
+
+    space_evaluate(s, field, x, cell, xi, &(point_values){.value = u});
+    for (int a = 0; a < s->mesh->dim; a++) {
+        square += u[a] * u[a];
+        through += u[a] * n[a];
+    }
+    return 0.5 * square * through;
+}
+
+/* Its integral over the boundary. */
 static int carry(const space *s, int field, const double *x, double *sum, error *err)
 {
     const mesh *m = s->mesh;
@@ -73,31 +83,42 @@ static int carry(const space *s, int field, const double *x, double *sum, error 
                               &orient, err));
         local = m->facet[f].local;
         for (int q = 0; q < rule.n; q++) {
-            double at[3] = {0}, ds[3], u[VALUE_MAX] = {0}, square = 0, through = 0;
+            double at[3] = {0}, ds[3];
 
             facet_element(m, f, rule.x[q], (const double(*)[3])tangent, orient, at, ds);
-            space_evaluate(s, field, x, m->facet[f].cell, rule.x[q], &(point_values){.value = u});
-            for (int a = 0; a < m->dim; a++) {
-                square += u[a] * u[a];
-                through += u[a] * ds[a];
-            }
-            *sum += 0.5 * rule.w[q] * square * through;
+            *sum += rule.w[q] * flux(s, field, x, m->facet[f].cell, rule.x[q], ds);
         }
     }
     return 0;
 }
 
-int power_meter_read(power_meter *m, const double *x, const double *reaction, error *err)
+/* The same over the surfaces of bodies that cut through cells. */
+static double sweep(const space *s, int field, const double *x, const body_points *b)
 {
+    double sum = 0;
+
+    for (int64_t i = 0; b && i < b->n_surface * SURFACE_POINTS; i++)
+        if (b->surface_weight[i] != 0)
+            sum += b->surface_weight[i] * flux(s, field, x, s->attached_cell[b->surface[i / SURFACE_POINTS]],
+                                               b->surface_ref[i], b->surface_normal[i]);
+    return sum;
+}
+
+int power_meter_read(power_meter *m, const double *x, const double *reaction, const body_points *bodies, error *err)
+{
+    double *to = m ? m->now.use[m->n_use] : NULL;
+
     if (!m)
         return 0;
-    *m->prescribed = *m->carried = 0;
+    memset(to, 0, sizeof *m->now.use);
     for (int f = 0; f < m->space->n_field; f++) {
         if (!(m->now.fields >> f & 1))
             continue;
-        *m->prescribed += vector_prescribed_dot(m->space, f, reaction, x);
-        if (m->space->field[f].support == PF_ON_MESH)
-            TRY(carry(m->space, f, x, m->carried, err));
+        to[METER_PRESCRIBED] += vector_prescribed_dot(m->space, f, reaction, x);
+        if (m->space->field[f].support != PF_ON_MESH)
+            continue;
+        TRY(carry(m->space, f, x, &to[METER_CARRIED], err));
+        to[METER_SWEPT] += sweep(m->space, f, x, bodies);
     }
     return 0;
 }
@@ -106,8 +127,9 @@ void power_meter_hold(power_meter *m, double dt)
 {
     if (!m)
         return;
-    for (int i = 0; i < m->n; i++)
-        m->held[i] = dt * m->reading[i];
+    for (int i = 0; i <= m->n_use; i++)
+        for (int k = 0; k < POWERS; k++)
+            m->held[i][k] = dt * m->now.use[i][k];
     m->holds = 1;
 }
 
@@ -121,14 +143,16 @@ void power_meter_accept(power_meter *m, int order, double dt)
 {
     if (!m)
         return;
-    for (int i = 0; i < m->n; i++)
-        if (m->holds)
-            m->work[i] += m->held[i] + 0.5 * dt * m->reading[i];
-        else if (order == 1 || !m->has_last)
-            m->work[i] += dt * m->reading[i];
-        else
-            m->work[i] += 0.5 * dt * (m->last[i] + m->reading[i]);
-    memcpy(m->last, m->reading, (size_t)m->n * sizeof *m->last);
+    for (int i = 0; i <= m->n_use; i++)
+        for (int k = 0; k < POWERS; k++) {
+            double before = order == 1 || !m->has_last ? m->now.use[i][k] : m->last[i][k];
+
+            if (m->holds)
+                m->work[i][k] += m->held[i][k] + 0.5 * dt * m->now.use[i][k];
+            else
+                m->work[i][k] += 0.5 * dt * (before + m->now.use[i][k]);
+            m->last[i][k] = m->now.use[i][k];
+        }
     m->has_last = 1;
     m->holds = 0;
 }

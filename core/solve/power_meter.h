@@ -14,14 +14,20 @@
 
 #include "solve/solve.h"
 
+/* Of a reading, beside what each term has: */
+enum {
+    METER_PRESCRIBED, /* power of what holds prescribed unknowns: reaction times value         */
+    METER_CARRIED, /* 1/2 |u|^2 u . n over the boundary of the mesh: kinetic energy that flows out, of density 1 */
+    METER_SWEPT,   /* the same over surfaces of bodies that cut through cells, as they move */
+    METERS
+};
+_Static_assert((int)METERS <= (int)POWERS, "one more row in a reading");
+
 typedef struct power_meter {
     const space *space;
-    assembly_power now; /* of the last step that was solved; its use[] is where `reading` begins */
-    int n;              /* POWERS for each term, then: */
-    double *prescribed; /* power of what holds prescribed unknowns: reaction times value                       */
-    double
-        *carried; /* 1/2 |u|^2 u . n over the boundary of the mesh: kinetic energy that flows out, of density 1 */
-    double *reading, *last, *held, *work; /* [n] now, of the accepted step before; integrals */
+    int n_use;
+    assembly_power now; /* of the last step that was solved; with the row n_use for the meters */
+    double (*last)[POWERS], (*held)[POWERS], (*work)[POWERS]; /* of the step before; integrals [n_use + 1] */
     int has_last, holds;
     arena memory;
 } power_meter;
@@ -31,8 +37,9 @@ int power_meter_create(power_meter *m, const assembly *a, error *err);
 void power_meter_destroy(power_meter *m);
 /* What of it the assembly fills; NULL if there is no meter. */
 assembly_power *power_meter_ask(power_meter *m);
-/* The rest of a reading, at the solution x with these reactions [n_dof]. */
-int power_meter_read(power_meter *m, const double *x, const double *reaction, error *err);
+/* The rest of a reading, at the solution x with these reactions [n_dof] and these bodies (NULL: none). */
+int power_meter_read(power_meter *m, const double *x, const double *reaction, const body_points *bodies,
+                     error *err);
 
 /* A step of length dt is accepted: work += the integral of the reading over it.  By backward Euler (order 1) the
  * value at its end counts, so that what the scheme loses is a sum of squares; by BDF2 the mean of that and the one

@@ -83,7 +83,7 @@ static int react(stepper *p, newton_time time, const double *x, error *err)
         time.power = i == REACTION_ALL ? power_meter_ask(p->meter) : NULL;
         TRY(newton_residual(p->system, &time, p->level, p->reaction[i], err));
     }
-    return power_meter_read(p->meter, p->level, p->reaction[REACTION_ALL], err);
+    return power_meter_read(p->meter, p->level, p->reaction[REACTION_ALL], time.bodies, err);
 }
 
 int stepper_steady(stepper *p, error *err)
