@@ -102,6 +102,7 @@ typedef struct plan_basis {
 
 typedef struct plan_use {
     term_use *use;
+    int number;                /* of the use in all classes, see assembly.use     */
     int in[TERM_MAX_SLOTS];    /* index into input[]                            */
     int out[TERM_MAX_SLOTS];   /* index into test[]                             */
     int trial[TERM_MAX_SLOTS]; /* index into trial[], -1 where no unknown        */
@@ -155,7 +156,9 @@ typedef struct assembly {
     const space *space;
     int n_thread, n_class;
     assembly_class *class_;
-    struct workspace *work;    /* [n_thread] */
+    struct workspace *work; /* [n_thread] */
+    int n_use;              /* terms, each once, also those on points of several classes */
+    term_use **use;
     const body_points *bodies; /* of the last evaluation; NULL: none */
     int bodies_stamp;          /* of those that the classes have their items from */
     uint8_t *none_idle;        /* [n_dof] zero */
@@ -175,8 +178,23 @@ typedef struct assembly_spec {
 /* Kinds of terms beside the flags of the interface. */
 enum {
     ASSEMBLE_COUPLING = 1 << 30, /* on points of bodies, with a field of the mesh: what bodies and fluid exchange */
-    ASSEMBLE_CONTACT = 1 << 29   /* on pairs */
+    ASSEMBLE_CONTACT = 1 << 29,  /* on pairs */
+    ASSEMBLE_INERTIA = 1 << 28   /* with a rate d/dt among its inputs */
 };
+
+/* The power of a term: its rows, each times its own unknown, added up. */
+enum {
+    POWER_ALL,     /* of the term as it is                                                      */
+    POWER_REST,    /* without rates: 0 in the place of every d/dt; of a term without any the same */
+    POWER_KINETIC, /* the energy whose rate is the other part: half the power with each unknown in the place of its
+                    * rate, less POWER_REST */
+    POWERS
+};
+
+typedef struct assembly_power {
+    uint32_t fields;       /* bit f: rows of field f count     */
+    double (*use)[POWERS]; /* [assembly.n_use]                 */
+} assembly_power;
 
 /* Where the unknowns stand; all vectors have n_dof entries. */
 typedef struct assembly_state {
@@ -186,12 +204,13 @@ typedef struct assembly_state {
     const moving_frame *frame; /* NULL: all history is at a place */
     double faded;              /* part of the terms with PF_CONTINUATION that is left out: 0 none, 1 all of them */
     uint32_t only;             /* not 0: only terms with one of these flags, or of one of these kinds */
+    assembly_power *power;     /* NULL: nobody asks */
 } assembly_state;
 
 int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int n_spec, int n_thread, error *err);
 
 /* residual[n_dof] (of all unknowns, fixed ones too: their rows are reactions) and, unless NULL,
- * value[nnz] of the matrix over free unknowns; both are overwritten.  With `diagnose` every
+ * value[nnz] of the matrix over free unknowns; both are overwritten, and so is the power.  With `diagnose` every
  * term's output, and with a matrix its derivatives, are checked for NaN and infinity and the first culprit is
  * named. ERR_PLUGIN or ERR_CONVERGE (err->retry) if a term fails. */
 int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err);
@@ -211,8 +230,11 @@ typedef struct workspace {
     v8 *dof;                  /* nodal values of one field                               */
     const v8 *frame;          /* w and history of this batch, see assembly_class; NULL: none */
     v8 *in, *test, *block, *out, *jac, *room;
-    v8 *g;         /* one strip of D B_j                                      */
-    v8 *vec, *mat; /* element vector and matrix of one field (pair)            */
+    v8 *g;               /* one strip of D B_j                                      */
+    v8 *vec, *mat;       /* element vector and matrix of one field (pair)            */
+    v8 *still, *unknown; /* zeros for a rate; the unknowns as the tests take them [test_size] */
+    const v8 *unknown_of[ASSEMBLE_MAX_TESTS]; /* of each test of the class: there, or among the inputs */
+    double (*power)[POWERS];                  /* [assembly.n_use] */
     void *scratch;
     term_report report;
     int64_t failed_batch;
@@ -246,6 +268,15 @@ v8 metric_of(int dim, int simplex, v8 inv[3][3], int a, int b);
 void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
 void inputs_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                    workspace *w);
+/* The unknowns that the rows of the class belong to, as their test functions enter (value or gradient). */
+void inputs_unknowns(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                     workspace *w);
+/* Adds the power of a term with outputs `out` to w->power (power.c); the outputs are overwritten. */
+int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, const plan_use *p, double factor,
+              const pf_batch *b, const double *const *in, double *const *out, workspace *w);
+void power_clear(assembly *a);
+/* The sums of all threads, in their order. */
+void power_sum(const assembly *a, assembly_power *power);
 /* Whether any term of the class takes part in this state. */
 int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s);
 int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,

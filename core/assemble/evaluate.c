@@ -134,7 +134,7 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
     return status;
 }
 
-/* Kinds of a term: its flags, and whether it couples bodies to the fluid or to each other. */
+/* Kinds of a term: its flags, whether it couples bodies to the fluid or to each other, whether it has inertia. */
 static uint32_t kinds(const assembly *a, const plan_use *p)
 {
     const pf_term *t = p->use->term;
@@ -146,6 +146,8 @@ static uint32_t kinds(const assembly *a, const plan_use *p)
         if (s->eval != PF_DATA && a->space->field[space_find_field(a->space, s->field)].order > 0)
             k |= ASSEMBLE_COUPLING;
     }
+    for (uint32_t i = 0; i < t->n_in; i++)
+        k |= t->in[i].eval == PF_DOT ? ASSEMBLE_INERTIA : 0;
     return k | (t->where == PF_PAIR ? ASSEMBLE_CONTACT : 0);
 }
 
@@ -215,6 +217,10 @@ static int evaluate_term(const assembly_class *c, const assembly_state *s, int64
         status = PF_FAIL;
     if (!status) {
         add_output(c, p, strength(s, p), out, dim, w);
+        if (s->power)
+            status = power_add(c, s, batch, p, strength(s, p), b, in, out, w);
+    }
+    if (!status) {
         process_enter(w->report.plugin, t->name, "Jacobian", cell);
         if (with_matrix)
             status = add_jacobian(c, s, p, b, in, dim, diagnose, w);
@@ -238,6 +244,8 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
     memset(w->test, 0, c->test_size * nq * sizeof(v8));
     if (with_matrix)
         memset(w->block, 0, c->block_size * nq * sizeof(v8));
+    if (s->power)
+        inputs_unknowns(a, c, s, batch, w);
     for (int u = 0; u < c->n_use; u++) {
         const plan_use *p = &c->use[u];
 

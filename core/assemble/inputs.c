@@ -27,9 +27,9 @@ static void gather(const assembly *a, const assembly_class *c, int64_t batch, in
     }
 }
 
-static void interpolate(const workspace *w, const plan_input *in, int order, int n, int n_comp, int nq, int dim)
+static void interpolate(const workspace *w, const plan_input *in, int order, int n, int n_comp, int nq, int dim,
+                        v8 *restrict out)
 {
-    v8 *restrict out = w->in + in->at * (size_t)nq;
     int grad = in->eval == PF_GRAD, div = in->eval == PF_DIV;
     int first = in->eval == PF_LAPLACE ? LAPLACE_ROW : grad || div ? 1 : 0;
     int last = grad || div ? dim : first;
@@ -77,12 +77,38 @@ void inputs_values(const assembly *a, const assembly_class *c, const assembly_st
             gathered_field = in->field;
         }
         interpolate(w, in, sp->field[in->field].order, c->n_basis[sp->field[in->field].order],
-                    sp->field[in->field].n_comp, nq, dim);
+                    sp->field[in->field].n_comp, nq, dim, out);
         if (in->eval == PF_DOT && w->frame && (s->frame->fields >> in->field & 1)) {
             gather(a, c, batch, in->field, s->x, w->dof);
             gathered = s->x;
             history_take(a, c, s, in, w);
         }
+    }
+}
+
+void inputs_unknowns(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                     workspace *w)
+{
+    const space *sp = a->space;
+
+    for (int t = 0; t < c->n_test; t++) {
+        const plan_basis *test = &c->test[t];
+        const field_spec *f = &sp->field[test->field];
+        const plan_input as = {
+            .field = test->field, .eval = test->kind == BASIS_GRAD ? PF_GRAD : PF_VALUE, .n_comp = test->n_comp};
+        v8 *to = w->unknown + test->at * (size_t)c->n_q;
+
+        w->unknown_of[t] = NULL;
+        if (!(s->power->fields >> test->field & 1))
+            continue;
+        for (int k = 0; k < c->n_input; k++)
+            if (c->input[k].field == test->field && c->input[k].eval == as.eval)
+                w->unknown_of[t] = w->in + c->input[k].at * (size_t)c->n_q;
+        if (w->unknown_of[t])
+            continue;
+        gather(a, c, batch, test->field, s->x, w->dof);
+        interpolate(w, &as, f->order, c->n_basis[f->order], f->n_comp, c->n_q, sp->mesh->dim, to);
+        w->unknown_of[t] = to;
     }
 }
 

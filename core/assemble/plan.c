@@ -76,6 +76,18 @@ static size_t max_size(size_t a, size_t b)
     return a > b ? a : b;
 }
 
+/* The number of a term, the same on the points of all classes. */
+static int number_use(assembly *a, term_use *use)
+{
+    int i = 0;
+
+    while (i < a->n_use && a->use[i] != use)
+        i++;
+    if (i == a->n_use)
+        a->use[a->n_use++] = use;
+    return i;
+}
+
 /* Adds one term; marks the blocks of D that it can fill. */
 static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
 {
@@ -263,6 +275,7 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
         if (i == ASSEMBLE_MAX_USES)
             return error_set(err, ERR_PLUGIN, "more than %d terms act on the same points", ASSEMBLE_MAX_USES);
         TRY(add_use(c, s, spec->use[i], err));
+        c->use[i].number = number_use(a, spec->use[i]);
     }
     for (int t = 0; t < c->n_test; t++) {
         c->test[t].at = c->test_size;
@@ -332,6 +345,9 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
     ARENA_NEW(&w->memory, w->dof, n * dim, err);
     ARENA_NEW(&w->memory, w->in, in, err);
     ARENA_NEW(&w->memory, w->test, test, err);
+    ARENA_NEW(&w->memory, w->unknown, test, err);
+    ARENA_NEW(&w->memory, w->still, q * 3, err);
+    ARENA_NEW(&w->memory, w->power, a->n_use + 1, err);
     ARENA_NEW(&w->memory, w->block, block, err);
     ARENA_NEW(&w->memory, w->out, out, err);
     ARENA_NEW(&w->memory, w->jac, jac, err);

@@ -149,6 +149,8 @@ int assembly_run(assembly *a, const assembly_state *s, double *residual, double 
     memset(residual, 0, (size_t)a->space->n_dof * sizeof *residual);
     if (value)
         memset(value, 0, (size_t)a->space->row[a->space->n_free] * sizeof *value);
+    if (s->power)
+        power_clear(a);
     for (int k = 0; k < a->n_class; k++) {
         assembly_class *c = &a->class_[k];
 
@@ -171,6 +173,8 @@ int assembly_run(assembly *a, const assembly_state *s, double *residual, double 
                 return report(&a->work[0], c, err);
     }
     close_idle(a->space, a->idle, residual, value);
+    if (s->power)
+        power_sum(a, s->power);
     return 0;
 }
 
@@ -182,6 +186,7 @@ int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int 
     ARENA_NEW(&a->memory, a->class_, n_spec > 0 ? n_spec : 1, err);
     ARENA_NEW(&a->memory, a->work, a->n_thread, err);
     ARENA_NEW(&a->memory, a->none_idle, s->n_dof + 1, err);
+    ARENA_NEW(&a->memory, a->use, (int64_t)n_spec * ASSEMBLE_MAX_USES + 1, err);
     a->idle = a->none_idle;
     for (a->n_class = 0; a->n_class < n_spec; a->n_class++)
         TRY(plan_create(a, &a->class_[a->n_class], &spec[a->n_class], err));

@@ -41,6 +41,10 @@ const body_points *problem_points(const problem *p);
 
 /* Warns where the cells are far too large for the flow that is prescribed (resolution.c). */
 int problem_check_resolution(problem *p, error *err);
+/* Density of the terms that carry the field along with itself, viscosity of those that diffuse it (0: there is
+ * none); whether a term is one of the first, on cells: its work is what the field carries with it. */
+void problem_numbers(const description *d, const char *field, double *density, double *viscosity);
+int problem_carries(const term_use *u, const char *field);
 /* Makes the mesh that a description says (make_mesh.c). */
 int problem_make_mesh(const description *d, registry *r, mesh *m, error *err);
 

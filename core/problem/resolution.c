@@ -32,9 +32,16 @@ static double number_of(const term_use *u, const char *name)
     return v;
 }
 
-/* Density of the terms that carry the field along with itself, viscosity of those that diffuse it (0: there is
- * none). */
-static void find_numbers(const description *d, const char *field, double *density, double *viscosity)
+int problem_carries(const term_use *u, const char *field)
+{
+    const pf_term *t = u->term;
+    int slopes = has_slot(t->in, t->n_in, field, PF_GRAD) || has_slot(t->in, t->n_in, field, PF_DIV);
+
+    return u->where <= PF_FLUID && !(t->flags & PF_LINEAR) && has_slot(t->in, t->n_in, field, PF_VALUE) && slopes &&
+           t->n_out == 1 && has_slot(t->out, t->n_out, field, PF_VALUE);
+}
+
+void problem_numbers(const description *d, const char *field, double *density, double *viscosity)
 {
     *density = *viscosity = 0;
     for (int i = 0; i < d->n_use; i++) {
@@ -43,7 +50,7 @@ static void find_numbers(const description *d, const char *field, double *densit
 
         if (u->where > PF_FLUID || !has_slot(t->in, t->n_in, field, PF_GRAD))
             continue;
-        if (has_slot(t->in, t->n_in, field, PF_VALUE) && has_slot(t->out, t->n_out, field, PF_VALUE))
+        if (problem_carries(u, field))
             *density = fmax(*density, number_of(u, "density"));
         if (has_slot(t->out, t->n_out, field, PF_GRAD))
             *viscosity += number_of(u, "viscosity");
@@ -80,7 +87,7 @@ int problem_check_resolution(problem *p, error *err)
 
         if (d->fields.f[f].shape != PF_VECTOR || d->fields.f[f].support != PF_ON_MESH)
             continue;
-        find_numbers(d, d->fields.f[f].name, &density, &viscosity);
+        problem_numbers(d, d->fields.f[f].name, &density, &viscosity);
         if (!(density > 0 && viscosity > 0))
             continue;
         TRY(prescribed_speed(p, f, d->time.start, x, &speed, err));

@@ -45,6 +45,7 @@ static int take_step(run *r, int64_t iterations, error *err)
     run_warn_singular(r, &s->report);
     run_take_solution(r);
     run_warn_defect(r);
+    TRY(energy_step(r, err));
     TRY(run_tell_warnings(r, err));
     TRY(run_log_solve(r, p->state.t, p->state.dt_previous, &s->report, err));
     TRY(output_take(r, p->state.t, err));

@@ -25,6 +25,7 @@ int run_log_solve(run *r, double t, double dt, const newton_report *report, erro
         text_number(&s, report->history[i]);
     }
     text_add(&s, "]");
+    energy_log(r, &s);
     if (r->p->bodies.n) {
         text_add(&s, ", \"particles\": %d, \"kinetic_energy\": ", r->p->bodies.n);
         text_number(&s, particles_energy(r));

@@ -90,6 +90,7 @@ static int steady(run *r, const volatile sig_atomic_t *stop, error *err)
         TRY(bodies_fill(&p->bodies, p->bodies.now, p->state.x, err));
     run_take_solution(r);
     TRY(stepper_steady(r->stepper, err));
+    TRY(energy_step(r, err));
     TRY(run_log_solve(r, 0, 0, &report, err));
     run_warn_defect(r);
     TRY(output_take(r, 0, err));
@@ -169,6 +170,7 @@ static int prepare(run *r, error *err)
         stepper_adapt(r->stepper, p->description.time.tolerance, p->description.time.step,
                       LEAST * (p->description.time.stop - p->description.time.start));
     memcpy(r->x, p->state.x, (size_t)p->space.n_dof * sizeof *r->x);
+    TRY(energy_open(r, err));
     TRY(norms_check(p, err));
     TRY(output_open(r, err));
     TRY(log_start(r, err));
@@ -205,9 +207,11 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
             status = err->code;
         if (log_end(&r, status ? &later : err) && !status)
             status = err->code;
+        energy_say(&r);
         if (!status)
             say(&r, "  %s", r.results.s ? r.results.s : "");
     }
+    energy_close(&r);
     output_close(&r);
     stepper_destroy(&stepper);
     return status;

@@ -84,6 +84,7 @@ typedef struct run {
     int32_t *body_of_node; /* [n_node] body that holds the node, or -1; NULL: none       */
     uint32_t empty;        /* bit f: field f has no value inside of bodies                */
     text results;          /* JSON of the case's derived results */
+    struct flow_energy *energy;
     arena memory;
 } run;
 
@@ -131,6 +132,14 @@ double particles_energy(const run *r); /* kinetic, J */
 double particles_balance(const run *r);
 int particles_write(run *r, double t, error *err); /* a row a body in particles.csv       */
 int particles_outline(run *r, error *err);         /* a .vtp for the file of fields just written */
+/* --- the balance of kinetic energy, and the cell Reynolds number (energy.c) --- */
+int energy_open(run *r, error *err);        /* at the state at the start */
+int energy_step(run *r, error *err);        /* after every step, and a steady solution */
+void energy_log(const run *r, text *s);     /* members of the event of a step */
+void energy_summary(const run *r, text *t); /* members of summary.json */
+void energy_say(const run *r);              /* the same in words */
+void energy_close(run *r);
+
 int output_summary(run *r, error *err);
 void output_close(run *r);
 

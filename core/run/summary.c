@@ -141,6 +141,7 @@ int output_summary(run *r, error *err)
     add_seconds(r->p, r->result, &t);
     add_warnings(&r->p->warnings, &t);
     add_errors(r->result, &t);
+    energy_summary(r, &t);
     text_add(&t, ",\n  \"results\": {%s}\n}\n", r->results.s ? r->results.s : "");
     snprintf(path, sizeof path, "%s/summary.json", r->dir);
     status = t.failed ? error_memory(err, path, 0) : file_write(path, t.s, t.n, err);

@@ -142,6 +142,7 @@ typedef struct newton_time {
     const moving_frame *frame;   /* NULL: none   */
     double faded;                /* see assembly_state */
     uint32_t only;               /* not 0: terms with one of these flags only */
+    assembly_power *power;       /* NULL: nobody asks */
 } newton_time;
 
 /* The residual of all rows at x, as it is (reactions at prescribed unknowns). */

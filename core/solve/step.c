@@ -49,9 +49,10 @@ int step_react(stepper *p, newton_time time, const double *x, error *err)
     gauge_zero_mean(p->system, time.bodies, p->level);
     for (int i = 0; i < REACTIONS && p->reaction[i]; i++) {
         time.only = only[i];
+        time.power = i == REACTION_ALL ? power_meter_ask(p->meter) : NULL;
         TRY(newton_residual(p->system, &time, p->level, p->reaction[i], err));
     }
-    return 0;
+    return power_meter_read(p->meter, p->level, p->reaction[REACTION_ALL], time.bodies, err);
 }
 
 /* Whether a step that carries bodies so far must be a shorter one; says so, of each kind once. */
@@ -202,6 +203,7 @@ static int start(stepper *p, const state *from, double dt, int *converged, error
     if (p->bodies->n)
         memcpy(p->idle, p->bodies->now->idle, (size_t)n * sizeof *p->idle);
     TRY(step(p, from, half, 1, dt / 2, converged, err));
+    power_meter_hold(p->meter, dt / 2);
     if (*converged)
         TRY(step(p, half, full, 1, dt / 2, converged, err));
     if (!*converged)
@@ -240,6 +242,7 @@ int step_try(stepper *p, double dt, enum step_outcome *outcome, step_error *e, d
     const state *from = p->now;
     int started = p->order == 2 && from->n_history == 0, converged;
 
+    power_meter_drop(p->meter);
     if (started)
         TRY(start(p, from, dt, &converged, err));
     else

@@ -61,6 +61,7 @@ int stepper_steady(stepper *p, error *err)
 /* The state reached becomes that of now; counts go on. */
 static void accept(stepper *p)
 {
+    power_meter_accept(p->meter, p->order, p->trial[0].dt_previous);
     p->trial[0].count = p->now->count;
     p->trial[0].control = p->now->control;
     state_swap(p->now, &p->trial[0]);

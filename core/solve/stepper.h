@@ -5,6 +5,7 @@
 #define SOLVE_STEPPER_H
 
 #include "body/body.h"
+#include "solve/power_meter.h"
 #include "solve/solve.h"
 #include "solve/step_control.h"
 #include "solve/step_measure.h"
@@ -31,6 +32,7 @@ typedef struct stepper {
     double *history, *level, *predicted;            /* [n_dof] */
     uint8_t *idle;                                  /* [n_dof] of the first of the steps that are extrapolated */
     double *reaction[REACTIONS], *saved[REACTIONS]; /* [n_dof]; without bodies only that of all terms */
+    power_meter *meter;                             /* reads at the end of every step; NULL: none */
     newton_report report;
     double tolerance;      /* of steps that choose their length; 0: they do not */
     double least;          /* no step is shorter than this, s */

@@ -73,7 +73,8 @@ int system_evaluate(newton_system *s, const newton_time *time, const double *x, 
                          .bodies = time->bodies,
                          .frame = time->frame,
                          .faded = time->faded,
-                         .only = time->only};
+                         .only = time->only,
+                         .power = time->power};
     double start = clock_seconds();
     int status;
 

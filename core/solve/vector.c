@@ -118,3 +118,12 @@ void vector_field_add(const space *s, const uint8_t *idle, int field, double c, 
         if (s->dof_field[d] == field && !idle[d])
             y[d] += a ? c * a[d] : c;
 }
+
+double vector_prescribed_dot(const space *s, int field, const double *a, const double *b)
+{
+    double sum = 0;
+
+    for (int64_t d = 0; d < s->n_dof; d++)
+        sum += s->dof_field[d] == field && s->fixed[d] == SPACE_PRESCRIBED ? a[d] * b[d] : 0;
+    return sum;
+}

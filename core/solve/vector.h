@@ -39,6 +39,8 @@ int vector_field_prescribed(const space *s, int field); /* whether any of its un
 
 double vector_field_sum(const space *s, const uint8_t *idle, int field, const double *dof);
 double vector_field_dot(const space *s, const uint8_t *idle, int field, const double *a, const double *b);
+/* The same over those that are prescribed. */
+double vector_prescribed_dot(const space *s, int field, const double *a, const double *b);
 /* y += c a; a NULL: 1 */
 void vector_field_add(const space *s, const uint8_t *idle, int field, double c, const double *a, double *y);
 
