@@ -4,6 +4,7 @@ case "Disk settling in a channel"
 
 local n = param("n", 12, "cells per cm")
 local dt = param("dt", 0.01, "time step, s")
+local tolerance = param("tolerance", 0, "of steps that choose their length; 0: all are dt")
 local stop = param("stop", 0.9, "end, s")
 local rho = param("density", 1.25, "density of the disk, g/cm^3")
 local formulation = param("formulation", "sharp", "sharp or conservative")
@@ -21,7 +22,12 @@ boundary "*" { u = {0, 0} }
 
 particle { shape = disk { radius = d / 2 }, density = rho, at = {1, 4} }
 
-time   { scheme = "bdf2", step = dt, stop = stop, geometry_iterations = param("iterations", 0, "bodies placed anew within a step") }
+local iterations = param("iterations", 0, "bodies placed anew within a step")
+if tolerance > 0 then
+  time { tolerance = tolerance, stop = stop }
+else
+  time { scheme = "bdf2", step = dt, stop = stop, geometry_iterations = iterations }
+end
 output { every = dt * math.ceil(stop / dt / 12 - 1e-9) }
 
 results(function(r)

@@ -211,7 +211,8 @@ static void continue_fluid(const bodies *p, const moving_body *b, const double *
 }
 
 /* sum_k c_k u^k at the feet, continued by `off` to first order. */
-static void history_of(const bodies *p, int f, const located *foot, double off[PATHS_MAX_LEVELS][3], double *history)
+static void history_of(const bodies *p, int f, const located *foot, double off[PATHS_MAX_LEVELS][3],
+                       double *history)
 {
     const body_paths *t = &p->paths;
     int n = p->space->field[f].n_comp, dim = p->space->mesh->dim;

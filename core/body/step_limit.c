@@ -8,6 +8,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+/* By how much a gap with a force in it may close in one step, in radii. */
+#define CLOSES 0.01
+
 #define HINT "; term \"contact.repulsion\" {} would keep them apart"
 
 /* A body before and after a step. */
@@ -65,10 +68,11 @@ static double closing(const move *m, const double *n)
 }
 
 /* Whether the gap is too narrow for what comes nearer: one that is closed already is a matter of the force that
- * acts in it, if there is one. */
+ * acts in it, if there is one.  So is one that closes by little: what falls on a floor would else come nearer in
+ * ever shorter steps. */
 static int is_through(const bodies *b, double gap, double nearer, double radius)
 {
-    return (gap > 0 || !b->has_pairs) && nearer > fmax(gap, 0) + 1e-9 * radius;
+    return (gap > 0 || !b->has_pairs) && nearer > fmax(gap, 0) + (b->has_pairs ? CLOSES : 1e-9) * radius;
 }
 
 static enum too_far through_wall(const bodies *b, int k, double gap, double nearer, const char *name, char *why,

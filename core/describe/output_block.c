@@ -197,18 +197,19 @@ static void read_every(description *d, reader *r)
     else if (d->time.unsteady && step > 0) /* about twenty files, after whole steps */
         o->every = step * fmax(1, ceil(length / step / 20 - 1e-9));
     reader_number(r, "every", "time between two files of fields, s", 1e-300, 1e300, &o->every);
-    reader_number(r, "tables_every", "time between two rows of the tables, s; else there is one a step", 1e-300, 1e300,
-                  &o->tables_every);
+    reader_number(r, "tables_every", "time between two rows of the tables, s; else there is one a step", 1e-300,
+                  1e300, &o->tables_every);
     if (d->time.unsteady && d->time.tolerance == 0 && step > 0 && o->every < 1e-6 * step)
         case_wrong(d->c, o->block, "every",
                    "output: every = %g is much shorter than a step of %g; it must be at least "
                    "a millionth of it",
                    o->every, step);
     if (d->time.tolerance > 0 && length > 0 && o->every < 1e-9 * length)
-        case_wrong(d->c, o->block, "every", "output: every = %g would make %.3g files", o->every, length / o->every);
+        case_wrong(d->c, o->block, "every", "output: every = %g would make %.3g files", o->every,
+                   length / o->every);
     if (d->time.unsteady && length > 0 && o->tables_every > 0 && o->tables_every < 1e-9 * length)
-        case_wrong(d->c, o->block, "tables_every", "output: tables_every = %g would make %.3g rows", o->tables_every,
-                   length / o->tables_every);
+        case_wrong(d->c, o->block, "tables_every", "output: tables_every = %g would make %.3g rows",
+                   o->tables_every, length / o->tables_every);
 }
 
 int describe_output(description *d, error *err)

@@ -67,8 +67,8 @@ static int read_stop(description *d, reader *r)
     }
     t->steady = 1e-4;
     reader_choice(r, "stop", "when the run ends", word, &which);
-    reader_number(r, "steady", "relative change of the flow within the time gone by at which it is steady", 1e-14, 1,
-                  &t->steady);
+    reader_number(r, "steady", "relative change of the flow within the time gone by at which it is steady", 1e-14,
+                  1, &t->steady);
     status = reader_number(r, "at_most", "time at which the run ends if the flow is not steady by then, s", -1e300,
                            1e300, &t->stop);
     reader_required(r, "at_most", status);
@@ -158,8 +158,8 @@ static void read_continuation(description *d, reader *r)
     lua_pop(l, 1);
 }
 
-/* Newton's method in a time step stops when its residual is this part of the prediction's: what is left is then small
- * against the error of the step, of which the prediction's is a few. */
+/* Newton's method in a time step stops when its residual is this part of the prediction's: what is left is then
+ * small against the error of the step, of which the prediction's is a few. */
 #define STEP_FALL 1e-3
 
 static void read_solve(description *d)
@@ -167,11 +167,13 @@ static void read_solve(description *d)
     solve_spec *o = &d->solve;
     reader r;
 
-    *o = (solve_spec){.tolerance = 1e-11, .max_iterations = 25, .linear_tolerance = d->time.unsteady ? 1e-6 : 0,
-                        .fall = d->time.unsteady ? STEP_FALL : 0};
+    *o = (solve_spec){.tolerance = 1e-11,
+                      .max_iterations = 25,
+                      .linear_tolerance = d->time.unsteady ? 1e-6 : 0,
+                      .fall = d->time.unsteady ? STEP_FALL : 0};
     reader_open(&r, d->c, case_find(d->c, "solve", 0), "solve");
-    if (reader_number(&r, "tolerance", "Newton stops when every field's residual is this small, relative", 1e-15, 0.1,
-                      &o->tolerance) > 0)
+    if (reader_number(&r, "tolerance", "Newton stops when every field's residual is this small, relative", 1e-15,
+                      0.1, &o->tolerance) > 0)
         o->fall = 0;
     reader_integer(&r, "max_iterations", "of Newton", 1, DESCRIBE_MAX_ITERATIONS, &o->max_iterations);
     reader_number(&r, "linear_tolerance", "of GMRES with old factors; 0: factor every matrix", 0, 0.1,

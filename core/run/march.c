@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * From the start of an unsteady run to its end: steps, all of one length or each of its own, that end wherever files
- * of fields or rows of tables are due. */
+ * From the start of an unsteady run to its end: steps, all of one length or each of its own, that end wherever
+ * files of fields or rows of tables are due. */
 #include "run/run.h"
 
 #include <math.h>
@@ -67,8 +67,8 @@ static int one_step(run *r, double next, error *err)
     problem *p = r->p;
     int64_t iterations = p->state.count.newton_iterations;
     int free = p->description.time.tolerance > 0;
-    int status = free ? stepper_advance_freely(r->stepper, next, err)
-                      : stepper_advance(r->stepper, next - p->state.t, err);
+    int status =
+        free ? stepper_advance_freely(r->stepper, next, err) : stepper_advance(r->stepper, next - p->state.t, err);
 
     run_warn_order(r, &r->stepper->report);
     TRY(status);
@@ -77,8 +77,8 @@ static int one_step(run *r, double next, error *err)
     return take_step(r, iterations, err);
 }
 
-/* Whether the flow has become steady: within the time gone by it would change, at the rate of the last step, by less
- * than a small part of itself. */
+/* Whether the flow has become steady: within the time gone by it would change, at the rate of the last step, by
+ * less than a small part of itself. */
 static int is_steady(run *r)
 {
     const problem *p = r->p;
@@ -88,7 +88,7 @@ static int is_steady(run *r)
     if (p->description.time.steady == 0 || s->n_history < 3)
         return 0;
     r->result->change = gone / s->dt_previous *
-                        measure_relative(&r->stepper->measure, s->x, s->before, NULL, 0,
+                        measure_relative(&r->stepper->measure, s->x, s->before, NULL,
                                          p->bodies.n ? p->bodies.now->idle : NULL, size, NULL);
     r->result->steady = r->result->change <= p->description.time.steady;
     return r->result->steady;
@@ -99,10 +99,11 @@ static void warn_unsteady(run *r)
     const time_spec *t = &r->p->description.time;
 
     if (t->steady > 0 && !r->result->steady)
-        warning_add(&r->p->warnings,
-                    "the flow is not steady at t = %g (at_most): at the rate of the last step it would change by %.2g of "
-                    "itself within the time gone by, and %g is asked for",
-                    t->stop, r->result->change, t->steady);
+        warning_add(
+            &r->p->warnings,
+            "the flow is not steady at t = %g (at_most): at the rate of the last step it would change by %.2g of "
+            "itself within the time gone by, and %g is asked for",
+            t->stop, r->result->change, t->steady);
 }
 
 static int write_rows(run *r, error *err)

@@ -76,9 +76,10 @@ enum { NEWTON_MAX_ITERATIONS = 50 };
 
 typedef struct newton_options {
     double tolerance; /* per field, relative to |J| |x|          */
-    double fall;      /* of a step in time: residual, relative to that of the prediction, that is small enough, too; 0:
-                       * none is */
+    double fall; /* of a step in time: residual, relative to that of the prediction, that is small enough, too; 0:
+                  * none is */
     int max_iterations;
+    int hurry;               /* a step in time, which may be shorter: gives up where the residual hardly falls */
     double linear_tolerance; /* of GMRES; 0: factor every matrix  */
 } newton_options;
 
@@ -174,8 +175,8 @@ uint32_t scale_waiting(const newton_system *s, const double *norm, double tolera
 
 /* observe.c.  Order and ratio at the last iteration that is above round-off. */
 void observe_order(newton_report *r);
-/* Whether it was one, as with a wrong matrix; not where a constant is free only nearly.  Of each step its length, and
- * the part of the residual that its linear solution left. */
+/* Whether it was one, as with a wrong matrix; not where a constant is free only nearly.  Of each step its length,
+ * and the part of the residual that its linear solution left. */
 void observe_linear(newton_report *r, const double *length, const double *inexact);
 
 /* explain.c.  Something is not finite at x: the error names who put it there (term and place, or the unknown). */

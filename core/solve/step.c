@@ -220,21 +220,18 @@ static int start(stepper *p, const state *from, double dt, int *converged, error
     return p->bodies->n ? bodies_fill(p->bodies, p->bodies->now, whole->x, err) : 0;
 }
 
-/* Error of the step in the first trial state.  That of the first step is guessed from what Richardson's extrapolation
- * took out, which is of second order. */
+/* Error of the step in the first trial state.  That of the first step is guessed from what Richardson's
+ * extrapolation took out, that of the second from what a straight line misses. */
 static step_error error_of(const stepper *p, const state *from, int started, double dt, double *size)
 {
     const uint8_t *idle = p->bodies->n ? p->bodies->now->idle : NULL;
     const double *x = p->trial[0].x;
-    step_error e = {-1, 0};
 
-    if (started) {
-        e.whole = pow(measure_relative(&p->measure, x, p->trial[2].x, from->x, 1 / sqrt(p->tolerance), idle, size, NULL),
-                      1.5);
-        e.error = e.whole / measure_allowed(&p->measure, p->tolerance);
-    } else if (from->n_history >= 2)
-        e = measure_step(&p->measure, from, p->tolerance, dt, x, p->predicted, idle, size);
-    return e;
+    if (started)
+        return measure_first(&p->measure, from, p->tolerance, dt, x, p->trial[2].x, idle, size);
+    if (from->n_history == 1)
+        return measure_first(&p->measure, from, p->tolerance, dt, x, p->predicted, idle, size);
+    return measure_step(&p->measure, from, p->tolerance, dt, x, p->predicted, idle, size);
 }
 
 int step_try(stepper *p, double dt, enum step_outcome *outcome, step_error *e, double *size, error *err)

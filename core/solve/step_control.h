@@ -6,8 +6,8 @@
 
 #include "state/state.h"
 
-/* Part of x - x_predicted, extrapolated through three levels, that is the error of a step of BDF2 of length dt after
- * one of dt_previous after one of dt_before. */
+/* Part of x - x_predicted, extrapolated through three levels, that is the error of a step of BDF2 of length dt
+ * after one of dt_previous after one of dt_before. */
 double control_milne(double dt, double dt_previous, double dt_before);
 /* Error of a step of BDF2 over the third derivative. */
 double control_defect(double dt, double dt_previous);

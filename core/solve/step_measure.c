@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The error of a step, by Milne's device: what the solution differs by from an extrapolation of the same order, times a
- * known factor (Gresho and Sani 1998, 3.16).
+ * The error of a step, by Milne's device: what the solution differs by from an extrapolation of the same order,
+ * times a known factor (Gresho and Sani 1998, 3.16).
  *
- * A body that moves through the mesh feels it: its velocity has a roughness of the size of the error of space, which
- * no shorter step makes smaller, and fluid close to it changes wherever cells are cut otherwise.  So where bodies move
- * Milne's error may be a few times the tolerance, and what is held to the tolerance is the error of the bodies'
- * velocities smoothed over the last steps.  Fluid on the paths that follow bodies (paths.c) is not measured: it goes
- * with them. */
+ * A body that moves through the mesh feels it: its velocity has a roughness of the size of the error of space,
+ * which no shorter step makes smaller, and fluid close to it changes wherever cells are cut otherwise.  So where
+ * bodies move Milne's error may be a few times the tolerance, and what is held to the tolerance is the error of the
+ * bodies' velocities smoothed over the last steps.  Fluid on the paths that follow bodies (paths.c) is not
+ * measured: it goes with them. */
 #include "solve/step_measure.h"
 
 #include "solve/step_control.h"
@@ -98,8 +98,8 @@ static void add_bodies(const step_measure *m, int f, const double *x, const doub
 /* Fields that are measured by the same velocity: that of the fluid, those of the bodies that move it. */
 static int is_motion(const step_measure *m, int f)
 {
-    return m->bodies->n && (f == m->bodies->field_velocity || f == m->bodies->field_spin ||
-                            f == bodies_rigid_field(m->bodies));
+    return m->bodies->n &&
+           (f == m->bodies->field_velocity || f == m->bodies->field_spin || f == bodies_rigid_field(m->bodies));
 }
 
 /* Mean square, or of a field of bodies the largest value, of x - from and of x. */
@@ -113,18 +113,16 @@ static void add_field(const step_measure *m, int f, const double *x, const doubl
         add_squares(m, f, x, from, idle, error, size);
 }
 
-double measure_relative(const step_measure *m, const double *x, const double *from, const double *before, double many,
+double measure_relative(const step_measure *m, const double *x, const double *from, const double *least,
                         const uint8_t *idle, double *size, double *motion)
 {
-    double error[SPACE_MAX_FIELDS] = {0}, change[SPACE_MAX_FIELDS] = {0}, most = 0, worst = 0;
+    double error[SPACE_MAX_FIELDS] = {0}, most = 0, worst = 0;
 
     for (int f = 0; f < m->space->n_field; f++) {
         double now;
 
         if (!(m->rated >> f & 1))
             continue;
-        if (before)
-            add_field(m, f, x, before, idle, &change[f], &now);
         add_field(m, f, x, from, idle, &error[f], &now);
         size[f] = fmax(size[f], now);
         if (is_motion(m, f))
@@ -134,15 +132,35 @@ double measure_relative(const step_measure *m, const double *x, const double *fr
         double of = is_motion(m, f) && m->space->field[f].support == PF_ON_PARTICLE ? most : size[f];
 
         if (error[f] > 0)
-            worst = fmax(worst, error[f] / fmax(fmax(of, many * change[f]), DBL_MIN));
+            worst = fmax(worst, error[f] / fmax(fmax(of, least ? least[f] : 0), DBL_MIN));
     }
     if (motion)
         *motion = fmax(most, DBL_MIN);
     return worst;
 }
 
-/* Orthonormal polynomials of degree 0 to 3 on the instants t [n], by Gram and Schmidt; returns the third derivative of
- * the last. */
+/* least[f]: what a field would grow to in `many` steps like this one and the one before, whichever changes it less.
+ * One that starts from rest is not to be measured by the little that it is. */
+static void growth(const step_measure *m, const state *now, double dt, const double *x, const uint8_t *idle,
+                   double many, double *least)
+{
+    for (int f = 0; f < m->space->n_field; f++) {
+        double change, before, size;
+
+        least[f] = 0;
+        if (!(m->rated >> f & 1))
+            continue;
+        add_field(m, f, x, now->x, idle, &change, &size);
+        if (now->n_history > 0) {
+            add_field(m, f, now->x, now->before, idle, &before, &size);
+            change = fmin(change, before * dt / now->dt_previous);
+        }
+        least[f] = many * change;
+    }
+}
+
+/* Orthonormal polynomials of degree 0 to 3 on the instants t [n], by Gram and Schmidt; returns the third derivative
+ * of the last. */
 static double polynomials(int n, const double *t, double p[4][STATE_PAST])
 {
     double unit = t[0] - t[n - 1], lead = 6;
@@ -169,8 +187,8 @@ static double polynomials(int n, const double *t, double p[4][STATE_PAST])
     return lead / pow(unit, 3);
 }
 
-/* Part of values v [n] along the cubic polynomial, as far as it stands out from the scatter of v about its best cubic:
- * twice the standard error is taken off. */
+/* Part of values v [n] along the cubic polynomial, as far as it stands out from the scatter of v about its best
+ * cubic: twice the standard error is taken off. */
 static double cubic_part(int n, double p[4][STATE_PAST], const double *v)
 {
     double c[4] = {0}, squares = 0;
@@ -236,17 +254,30 @@ double measure_allowed(const step_measure *m, double tolerance)
     return m->moves ? tolerance : pow(tolerance, 1.5);
 }
 
-step_error measure_step(const step_measure *m, const state *from, double tolerance, double dt, const double *x,
-                        const double *predicted, const uint8_t *idle, double *size)
+step_error measure_first(const step_measure *m, const state *now, double tolerance, double dt, const double *x,
+                         const double *from, const uint8_t *idle, double *size)
 {
-    double largest;
+    double least[SPACE_MAX_FIELDS];
     step_error e;
 
-    e.whole = control_milne(dt, from->dt_previous, from->dt_before) *
-              measure_relative(m, x, predicted, from->x, 1 / sqrt(tolerance), idle, size, &largest);
+    growth(m, now, dt, x, idle, 1 / sqrt(tolerance), least);
+    e.whole = pow(measure_relative(m, x, from, least, idle, size, NULL), 1.5);
+    e.error = e.whole / measure_allowed(m, tolerance);
+    return e;
+}
+
+step_error measure_step(const step_measure *m, const state *now, double tolerance, double dt, const double *x,
+                        const double *predicted, const uint8_t *idle, double *size)
+{
+    double least[SPACE_MAX_FIELDS], largest;
+    step_error e;
+
+    growth(m, now, dt, x, idle, 1 / sqrt(tolerance), least);
+    e.whole = control_milne(dt, now->dt_previous, now->dt_before) *
+              measure_relative(m, x, predicted, least, idle, size, &largest);
     e.error = e.whole / (m->moves ? ROUGH * tolerance : measure_allowed(m, tolerance));
     if (m->moves)
-        e.error = fmax(e.error, control_defect(dt, from->dt_previous) * body_jerk(m, from, from->t + dt, x) /
-                                    largest / measure_allowed(m, tolerance));
+        e.error = fmax(e.error, control_defect(dt, now->dt_previous) * body_jerk(m, now, now->t + dt, x) / largest /
+                                    measure_allowed(m, tolerance));
     return e;
 }

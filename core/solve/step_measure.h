@@ -2,9 +2,9 @@
  *
  * step_measure.h -- how large the error of a time step is.
  *
- * BDF2 makes an error of 0.22 (dt/T)^3 a step in a flow that changes within T; those of T/dt steps add up.  So a step
- * is allowed tolerance^(3/2): the sum is then about the tolerance.  The velocity of a body that moves forgets its
- * errors, as the balance of its forces draws it back: there a step is allowed the tolerance itself. */
+ * BDF2 makes an error of 0.22 (dt/T)^3 a step in a flow that changes within T; those of T/dt steps add up.  So a
+ * step is allowed tolerance^(3/2): the sum is then about the tolerance.  The velocity of a body that moves forgets
+ * its errors, as the balance of its forces draws it back: there a step is allowed the tolerance itself. */
 #ifndef SOLVE_STEP_MEASURE_H
 #define SOLVE_STEP_MEASURE_H
 
@@ -28,16 +28,18 @@ typedef struct step_error {
 int measure_create(step_measure *m, const bodies *b, arena *memory, error *err);
 /* Largest difference x - from [n_dof] of a field with du/dt, over its size.  A field of the mesh is measured by its
  * mean square over the nodes that are not off (idle, or NULL), one of bodies, in units of velocity, by its largest
- * value.  size: of each field now, at least what it was; motion (or NULL): largest size of a velocity.  before (or
- * NULL): unknowns a step ago; a field that changes fast has at least `many` times the size of its change, so that one
- * that is about to grow from rest is not measured by the little that it is. */
-double measure_relative(const step_measure *m, const double *x, const double *from, const double *before, double many,
+ * value.  size: of each field now, at least what it was; least (or NULL): what it is taken for at least; motion (or
+ * NULL): largest size of a velocity. */
+double measure_relative(const step_measure *m, const double *x, const double *from, const double *least,
                         const uint8_t *idle, double *size, double *motion);
 /* Relative error that a step may have. */
 double measure_allowed(const step_measure *m, double tolerance);
 /* Error of a step of BDF2 of length dt from a state with two steps behind it to x. */
-step_error measure_step(const step_measure *m, const state *from, double tolerance, double dt, const double *x,
+step_error measure_step(const step_measure *m, const state *now, double tolerance, double dt, const double *x,
                         const double *predicted, const uint8_t *idle, double *size);
+/* Of one of the first two steps: x - from is of second order. */
+step_error measure_first(const step_measure *m, const state *now, double tolerance, double dt, const double *x,
+                         const double *from, const uint8_t *idle, double *size);
 /* Free velocities and spins of body k: v [6]. */
 void measure_motion(const step_measure *m, int k, const double *x, double *v);
 /* The bodies' motion at the end of a step goes to what is remembered of it. */

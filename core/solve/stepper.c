@@ -125,7 +125,7 @@ static int judge(stepper *p, tries *t, const step_error *e, double *dt)
 {
     step_control *c = &p->now->control;
 
-    if (e->error <= fmax(1, c->floor) || t->jumped)
+    if (e->error <= fmax(1, c->floor) || t->jumped || c->jumped)
         return 1;
     t->flat = t->error > 0 && e->error > t->error * pow(*dt / t->dt, FLAT) ? t->flat + 1 : 0;
     if (t->flat && e->whole < JUMP * p->tolerance) {
@@ -134,7 +134,8 @@ static int judge(stepper *p, tries *t, const step_error *e, double *dt)
         p->now->count.rough++;
         return 1;
     }
-    if (t->flat >= FLAT_JUMP) { /* what was before it says nothing about what comes */
+    if (t->flat >= FLAT_JUMP ||
+        (t->flat && *dt < p->tolerance * c->usual)) { /* what was before it says nothing about what comes */
         t->jumped = 1;
         p->now->count.restarted++;
         if (p->now->n_history == 0)
@@ -158,8 +159,8 @@ static int try_until_done(stepper *p, double *dt, tries *t, step_error *e, doubl
     for (;; t->n++) {
         if (*dt < p->least)
             return error_set(err, ERR_CONVERGE,
-                             "at t = %.6g no step is short enough: the last try, of %.3g, failed: %s", p->now->t, *dt,
-                             t->error > 0 ? "its error was too large" : p->report.why);
+                             "at t = %.6g no step is short enough: the last try, of %.3g, failed: %s", p->now->t,
+                             *dt, t->error > 0 ? "its error was too large" : p->report.why);
         memcpy(size, c->scale, sizeof c->scale);
         TRY(step_try(p, *dt, &outcome, e, size, err));
         if (outcome == STEP_DONE && judge(p, t, e, dt))
@@ -184,14 +185,16 @@ int stepper_advance_freely(stepper *p, double until, error *err)
     memcpy(c->scale, size, sizeof size);
     if (t.jumped)
         c->n_past = 0;
-    if (e.error < 0 || t.jumped) { /* nothing is known yet: another one of the same length */
+    if (e.error < 0 || t.jumped || c->jumped) { /* nothing is known yet: another one of the same length */
         c->next = dt;
         c->before = 0;
     } else if (t.rough)
         c->next = wish; /* as if it had not been tried shorter */
     else
         control_accept(c, e.error / fmax(1, c->floor), dt, t.n > 0);
+    c->jumped = t.jumped;
     c->floor *= 0.9;
+    c->usual = fmax(dt, 0.9 * c->usual);
     accept(p);
     measure_remember(&p->measure, p->now);
     return 0;

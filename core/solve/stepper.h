@@ -34,8 +34,8 @@ typedef struct stepper {
     double *reaction[REACTIONS], *saved[REACTIONS]; /* [n_dof]; without bodies only that of all terms */
     power_meter *meter;                             /* reads at the end of every step; NULL: none */
     newton_report report;
-    double tolerance;      /* of steps that choose their length; 0: they do not */
-    double least;          /* no step is shorter than this, s */
+    double tolerance; /* of steps that choose their length; 0: they do not */
+    double least;     /* no step is shorter than this, s */
     step_measure measure;
     enum too_far too_far;   /* why the last step was refused before or after it was solved */
     int said[FAR_BODY + 1]; /* warnings given */

@@ -24,9 +24,11 @@ typedef struct body_past {
 
 /* What is remembered of the errors of steps, each over what is allowed; see solve/step_control.h. */
 typedef struct step_control {
-    double next;   /* length of the next step, s; 0: not known yet */
-    double before; /* error of the last step                       */
-    double floor;  /* error that no shorter step makes smaller     */
+    double next;                    /* length of the next step, s; 0: not known yet */
+    double before;                  /* error of the last step                       */
+    double floor;                   /* error that no shorter step makes smaller     */
+    int64_t jumped;                 /* the last step held a jump: what is behind it foretells nothing */
+    double usual;                   /* length of the longest of the last steps, s   */
     double scale[SPACE_MAX_FIELDS]; /* largest size of each field so far */
     int64_t n_past;
     double past[STATE_PAST]; /* instants that bodies' motion is remembered of, latest first, s */
@@ -43,15 +45,15 @@ typedef struct step_counts {
 } step_counts;
 
 typedef struct state {
-    double t, dt_previous, dt_before; /* now, and the lengths of the last step and of that before it, s */
-    int64_t n_history;                /* steps behind that a scheme may look back to                    */
-    int64_t n_dof, n_body;            /* sizes */
-    double *x, *before, *before2;     /* [n_dof] unknowns now, a step ago and two                        */
+    double t, dt_previous, dt_before;        /* now, and the lengths of the last step and of that before it, s */
+    int64_t n_history;                       /* steps behind that a scheme may look back to                    */
+    int64_t n_dof, n_body;                   /* sizes */
+    double *x, *before, *before2;            /* [n_dof] unknowns now, a step ago and two                        */
     pose *pose, *pose_before, *pose_before2; /* [n_body] of the bodies */
     step_counts count;
     step_control control; /* of steps that choose their length */
     body_past *past;      /* [n_body] */
-    double written; /* time of the last file of fields, s */
+    double written;       /* time of the last file of fields, s */
     arena memory;
 } state;
 

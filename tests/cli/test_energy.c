@@ -62,8 +62,8 @@ static void taylor_green_vortices_decay_by_viscosity_alone(void **state)
     for (int k = 0; k < 3; k++) {
         double e = run[k].error;
 
-        assert_ran(plugflow("run cases/taylor_green.lua --set n=%d --set dt=%g --out %s/o", run[k].n, run[k].dt,
-                            scratch()),
+        assert_ran(plugflow("run %s --set n=%d --set dt=%g --out %s/o", strict("cases/taylor_green.lua"), run[k].n,
+                            run[k].dt, scratch()),
                    0, "% of the largest); largest cell Reynolds number ");
         assert_between(energy("kinetic_start") / start, 1 - e, 1 + e);
         assert_between(energy("kinetic_end") / end, 1 - e, 1 + e);
@@ -113,7 +113,8 @@ static void a_falling_body_keeps_the_balance(void **state)
     int n;
 
     (void)state;
-    assert_ran(plugflow("run cases/falling_disk.lua --set n=8 --set stop=0.1 --out %s/o", scratch()), 0, NULL);
+    assert_ran(plugflow("run %s --set n=8 --set stop=0.1 --out %s/o", strict("cases/falling_disk.lua"), scratch()),
+               0, NULL);
     terms = work("momentum.stress") + work("surface.nitsche") + work("surface.extension");
     assert_between(energy("kinetic_start"), 0, 0);
     snprintf(path, sizeof path, "%s/o/particles.csv", scratch());

@@ -121,6 +121,14 @@ ran plugflow(const char *fmt, ...)
     return r;
 }
 
+const char *strict(const char *path)
+{
+    const char *to = put_file("strict.lua", "");
+
+    assert_int_equal(shell("{ cat %s; printf '\\nsolve { tolerance = 1e-11 }\\n'; } > %s", path, to).code, 0);
+    return to;
+}
+
 double summary(const char *dir, const char *keys)
 {
     char path[600], key[100], quoted[120];

@@ -21,6 +21,9 @@ const char *scratch(void);
 /* Writes text into scratch()/name; returns the path (valid until the fourth next call). */
 const char *put_file(const char *name, const char *text);
 
+/* A copy of a case, in scratch(), whose steps are solved to round-off. */
+const char *strict(const char *path);
+
 /* A number of scratch()/dir/summary.json by its keys, as in "errors.u.l2"; NAN if it is not there. */
 double summary(const char *dir, const char *keys);
 /* Column of a CSV file; returns the number of rows; *v is malloc'ed. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Lengths of steps from their errors, and the formulas that errors are known by, against BDF2 done by hand on cubics. */
+ * Lengths of steps from their errors, and the formulas that errors are known by, against BDF2 done by hand on
+ * cubics. */
 #include "solve/step_control.h"
 #include "solve/stepper.h"
 
@@ -70,13 +71,13 @@ static void a_step_grows_shrinks_and_stays(void **state)
     (void)state;
     control_accept(&c, 1e-6, 0.1, 0);
     near(c.next, 0.2, 1e-15); /* no more than twice */
-    c.before = 0.5;
+    c = (step_control){.before = 0.5};
     control_accept(&c, 0.6, 0.1, 0);
     near(c.next, 0.1, 1e-15); /* little is nothing */
-    c.before = 0.5;
+    c = (step_control){.before = 0.5};
     control_accept(&c, 0.95, 0.1, 0);
     assert_true(c.next < 0.09);
-    c.before = 0.5;
+    c = (step_control){.before = 0.5};
     control_accept(&c, 1e-6, 0.1, 1);
     near(c.next, 0.1, 1e-15); /* one that had to be repeated does not grow at once */
     c = (step_control){.before = 0.5, .next = 0.3};
