@@ -181,6 +181,15 @@ int csv_column(const char *path, const char *column, double **v)
     return n;
 }
 
+int step_column(const char *path, const char *column, double **v)
+{
+    int n = csv_column(path, column, v);
+
+    assert_true(n > 0);
+    memmove(*v, *v + 1, (size_t)(n - 1) * sizeof **v);
+    return n - 1;
+}
+
 void support_between(const char *what, double v, double low, double high, const char *file, int line)
 {
     if (v >= low && v <= high)

@@ -28,6 +28,8 @@ const char *strict(const char *path);
 double summary(const char *dir, const char *keys);
 /* Column of a CSV file; returns the number of rows; *v is malloc'ed. */
 int csv_column(const char *path, const char *column, double **v);
+/* The same without the first row, which is of the start and not of a step. */
+int step_column(const char *path, const char *column, double **v);
 
 /* The test fails, with both numbers, unless low <= v <= high. */
 #define assert_between(v, low, high) support_between(#v, (v), (low), (high), __FILE__, __LINE__)

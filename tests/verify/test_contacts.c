@@ -65,7 +65,7 @@ static void forces_are_those_of_the_step_that_was_solved(void **state)
             NULL);
         snprintf(file, sizeof file, "%s/seam%d/particles.csv", scratch(), k);
         for (int c = 0; c < 6; c++)
-            n = csv_column(file, name[c], &column[k][c]);
+            n = step_column(file, name[c], &column[k][c]);
         assert_int_equal(n, 20);
         for (int i = 0; i < n; i++) {
             const double *u = column[k][0], *w = column[k][2];
@@ -112,8 +112,8 @@ static void lubrication_acts_between_bodies(void **state)
         assert_ran(plugflow("run %s/film.lua --quiet --set film=%d --out %s/film", scratch(), film, scratch()), 0,
                    NULL);
         snprintf(file, sizeof file, "%s/film/particles.csv", scratch());
-        n = csv_column(file, "u", &u);
-        assert_int_equal(csv_column(file, "contact_x", &c), n);
+        n = step_column(file, "u", &u);
+        assert_int_equal(step_column(file, "contact_x", &c), n);
         speed[film] = u[n - 1];
         assert_true(film ? c[n - 1] > 0.1 : c[n - 1] == 0);
         assert_between(c[n - 1] + c[n - 2], -1e-12, 1e-12);

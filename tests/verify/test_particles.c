@@ -195,7 +195,7 @@ static void a_neutral_body_in_3d_does_not_notice_gravity(void **state)
     snprintf(file, sizeof file, "%s/neutral3/particles.csv", scratch());
     for (int k = 0; k < 6; k++) {
         double *v;
-        int n = csv_column(file, column[k], &v);
+        int n = step_column(file, column[k], &v);
 
         assert_int_equal(n, 100);
         for (int i = 0; i < n; i++)

@@ -43,10 +43,10 @@ static void compare(const char *mesh, const char *particle, const double *normal
     }
     assert_ran(plugflow("run %s/wall.lua --quiet --out %s/wall", scratch(), scratch()), 0, NULL);
     snprintf(file, sizeof file, "%s/wall/particles.csv", scratch());
-    n = csv_column(file, "x", &x);
-    assert_int_equal(csv_column(file, "y", &y), n);
-    assert_int_equal(csv_column(file, "contact_x", &cx), n);
-    assert_int_equal(csv_column(file, "contact_y", &cy), n);
+    n = step_column(file, "x", &x);
+    assert_int_equal(step_column(file, "y", &y), n);
+    assert_int_equal(step_column(file, "contact_x", &cx), n);
+    assert_int_equal(step_column(file, "contact_y", &cy), n);
     assert_int_equal(n, 3);
     for (int i = 0; i < n; i++) {
         double r = hypot(x[i], y[i]), nx = normal ? normal[0] : -x[i] / r, ny = normal ? normal[1] : -y[i] / r;
@@ -108,7 +108,7 @@ static void no_step_carries_a_body_through_a_wall(void **state)
                "boundary \"bottom\"");
     assert_true(summary("fast", "steps_shortened") > 0);
     snprintf(file, sizeof file, "%s/fast/particles.csv", scratch());
-    n = csv_column(file, "y", &y);
+    n = step_column(file, "y", &y);
     assert_int_equal(n, 20);
     for (int i = 0; i < n; i++)
         assert_true(y[i] > 0.15 && y[i] < 0.5);
@@ -141,7 +141,7 @@ static void a_long_way_is_gone_in_shorter_steps(void **state)
                              "'prescribed', velocity = {1,0} }\ntime { step = 0.28, stop = 0.56 }\n");
     assert_ran(plugflow("run %s/way.lua --quiet --out %s/way", scratch(), scratch()), 0, "cells, at most 3");
     snprintf(file, sizeof file, "%s/way/particles.csv", scratch());
-    n = csv_column(file, "x", &x);
+    n = step_column(file, "x", &x);
     assert_int_equal(n, 2);
     assert_between(x[0] - 0.48, -1e-12, 1e-12);
     assert_between(x[1] - 0.76, -1e-12, 1e-12);
@@ -168,7 +168,7 @@ static void ways_are_seen_whole(void **state)
                "particle 0 would move by 20 cells");
     assert_true(summary("period", "steps_shortened") >= 3);
     snprintf(file, sizeof file, "%s/period/particles.csv", scratch());
-    assert_int_equal(csv_column(file, "x", &x), 1);
+    assert_int_equal(step_column(file, "x", &x), 1);
     assert_between(x[0] - 0.5, -1e-12, 1e-12);
     free(x);
     assert_ran(plugflow("run %s/period.lua --quiet --set turn=10 --out %s/period", scratch(), scratch()), 0,
