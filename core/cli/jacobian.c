@@ -12,9 +12,9 @@
 
 enum { DIRECTIONS = 4 };
 
-/* Sums over rows of field f of (J d - dR)^2 and (J d)^2 for directions d in field g. */
-static int compare(problem *p, double shift, double *x, double *d, double *plus, double *minus, int g, double *diff,
-                   double *size, unsigned long long *random, error *err)
+/* Sums over rows of field f of (J d - dR)^2 and (J d)^2 for directions d in field g; old values stay. */
+static int compare(problem *p, double shift, double *x, const double *old, double *d, double *plus, double *minus,
+                   int g, double *diff, double *size, unsigned long long *random, error *err)
 {
     const space *s = &p->space;
     newton_system *sys = &p->system;
@@ -27,7 +27,7 @@ static int compare(problem *p, double shift, double *x, double *d, double *plus,
                              .shift = shift,
                              .x = x,
                              .dot = sys->step,
-                             .old = x,
+                             .old = old,
                              .bodies = problem_points(p)};
 
         for (int64_t i = 0; i < s->n_dof; i++)
@@ -59,11 +59,12 @@ static int all_pairs(problem *p, error *err)
     const space *s = &p->space;
     newton_system *sys = &p->system;
     const uint8_t *idle = p->bodies.now ? p->bodies.now->idle : sys->assembly.none_idle;
-    double shift = p->description.time.unsteady ? 1.5 / p->description.time.step : 0, *x, *d, *plus, *minus;
+    double shift = p->description.time.unsteady ? 1.5 / p->description.time.step : 0, *x, *old, *d, *plus, *minus;
     unsigned long long random = RANDOM_SEED;
     int wrong = 0;
 
     ARENA_NEW(&p->memory, x, s->n_dof, err);
+    ARENA_NEW(&p->memory, old, s->n_dof, err);
     ARENA_NEW(&p->memory, d, s->n_dof, err);
     ARENA_NEW(&p->memory, plus, s->n_dof, err);
     ARENA_NEW(&p->memory, minus, s->n_dof, err);
@@ -71,19 +72,20 @@ static int all_pairs(problem *p, error *err)
         x[i] = p->state.x[i] + (idle[i] || s->fixed[i] & SPACE_AWAY ? 0 : 2 * random_next(&random) - 1);
         sys->step[i] = shift * x[i];
     }
+    memcpy(old, x, (size_t)s->n_dof * sizeof *old);
     TRY(assembly_run(&sys->assembly,
                      &(assembly_state){.t = p->description.time.start,
                                        .dt = p->description.time.step,
                                        .shift = shift,
                                        .x = x,
                                        .dot = sys->step,
-                                       .old = x,
+                                       .old = old,
                                        .bodies = problem_points(p)},
                      sys->residual, sys->linear.value, 1, err));
     for (int g = 0; g < s->n_field; g++) {
         double diff[SPACE_MAX_FIELDS] = {0}, size[SPACE_MAX_FIELDS] = {0};
 
-        TRY(compare(p, shift, x, d, plus, minus, g, diff, size, &random, err));
+        TRY(compare(p, shift, x, old, d, plus, minus, g, diff, size, &random, err));
         for (int f = 0; f < s->n_field; f++) {
             double e = sqrt(diff[f]), n = sqrt(size[f]);
             int ok = e <= 1e-6 * n || e <= 1e-7 * (1 + n);

@@ -53,6 +53,15 @@ static void energy_never_grows_by_itself(void **state)
     }
 }
 
+/* Also where a term reads the velocity of a step ago, which does not move with the unknowns. */
+static void the_matrix_is_the_derivative(void **state)
+{
+    (void)state;
+    assert_ran(plugflow("jacobian tests/verify/unresolved_vortices.lua --set n=3"), 0, "ok     d R_u / d u");
+    assert_ran(plugflow("jacobian tests/verify/mms2d.lua --set n=3 --set stabilise=true --set viscosity=1e-3"), 0,
+               "ok     d R_u / d u");
+}
+
 static void resolved_flow_stays_what_it_was(void **state)
 {
     const double off = error_of("mms2d.lua --set n=16", "errors.u.l2");
@@ -89,6 +98,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(outflow_with_backflow_lets_a_vortex_leave),
         cmocka_unit_test(energy_never_grows_by_itself),
+        cmocka_unit_test(the_matrix_is_the_derivative),
         cmocka_unit_test(resolved_flow_stays_what_it_was),
         cmocka_unit_test(small_viscosity_costs_one_order_at_most),
     };
