@@ -147,7 +147,6 @@ int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *e
     plan_continuation(p);
     p->newton = (newton_options){.tolerance = d->solve.tolerance,
                                  .fall = d->solve.fall,
-                                 .hurry = d->time.unsteady,
                                  .max_iterations = d->solve.max_iterations,
                                  .linear_tolerance = d->solve.linear_tolerance};
     TRY(state_create(&p->state, p->space.n_dof, d->n_body, err));

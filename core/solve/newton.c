@@ -22,9 +22,9 @@
 #define LAST_STEP 1e-4
 /* A step of a linear problem leaves less of the residual than this, or the terms are not what their flags say. */
 #define LINEAR_FALL 1e-3
-/* A step that may be shorter is given up where two iterations, after some, do not make this of the residual. */
-#define SLOW 0.3
-enum { LEAST_TRIES = 4 };
+/* A step that may be shorter is given up where three iterations, after some, do not make this of the residual. */
+#define SLOW 0.5
+enum { LEAST_TRIES = 5 };
 /* Where Newton's method stops early, a correction with the factors there are is tried from this many times what is
  * enough: it costs no matrix. */
 #define NEAR 50
@@ -328,11 +328,11 @@ static int iterate_once(iterate *it, int k, int *more, error *err)
         give_up(r, "residual %.2g after %d iterations", r->history[k], k);
         return 0;
     }
-    if (it->o->hurry && k >= LEAST_TRIES && r->history[k] > SLOW * r->history[k - 2] &&
+    if (it->o->hurry && k >= LEAST_TRIES && r->history[k] > SLOW * r->history[k - 3] &&
         r->history[k] > 1e3 * it->o->tolerance) {
-        give_up(r,
-                "Newton's method is too far from the solution: residual %.2g after %d iterations, %.2g two before",
-                r->history[k], k, r->history[k - 2]);
+        give_up(
+            r, "Newton's method is too far from the solution: residual %.2g after %d iterations, %.2g three before",
+            r->history[k], k, r->history[k - 3]);
         return 0;
     }
     TRY(need_matrix(it, k, err));

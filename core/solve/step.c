@@ -104,8 +104,7 @@ static void extrapolate(const state *from, state *to, double dt, int most)
     }
 }
 
-/* The same along the paths of bodies that have been placed, near those that move; what is prescribed stays.
- * p->predicted: all of it. */
+/* The same along the paths of bodies that have been placed, near those that move; what is prescribed stays. */
 static int follow(stepper *p, const state *from, state *to, double dt, int most, error *err)
 {
     double c[3];
@@ -118,8 +117,24 @@ static int follow(stepper *p, const state *from, state *to, double dt, int most,
         TRY(stepper_prescribe(p->conditions, p->bodies, from->t + dt, to->x, err));
         bodies_clear(p->bodies, p->bodies->now, to->x);
     }
-    memcpy(p->predicted, to->x, (size_t)from->n_dof * sizeof *to->x);
     return 0;
+}
+
+/* p->predicted, and from where Newton's method starts: there, or, where it has failed, at an extrapolation of less
+ * order, which does not overshoot. */
+static int predict(stepper *p, const state *from, state *to, double dt, int most, error *err)
+{
+    int simpler = most > p->failures ? most - p->failures : 1;
+
+    TRY(follow(p, from, to, dt, most, err));
+    memcpy(p->predicted, to->x, (size_t)from->n_dof * sizeof *to->x);
+    if (simpler == most)
+        return 0;
+    extrapolate(from, to, dt, simpler);
+    TRY(stepper_prescribe(p->conditions, p->bodies, from->t + dt, to->x, err));
+    if (p->bodies->n)
+        bodies_clear(p->bodies, p->bodies->now, to->x);
+    return follow(p, from, to, dt, simpler, err);
 }
 
 /* What was now is a level of history. */
@@ -166,7 +181,7 @@ static int step(stepper *p, const state *from, state *to, int order, double dt, 
         if (too_far)
             return 0;
         if (k == 0)
-            TRY(follow(p, from, to, dt, order == 2 ? 3 : 1, err));
+            TRY(predict(p, from, to, dt, order == 2 ? 3 : 1, err));
         time.bodies = points(p->bodies);
         if (p->bodies->n)
             time.frame =
@@ -240,10 +255,12 @@ int step_try(stepper *p, double dt, enum step_outcome *outcome, step_error *e, d
     int started = p->order == 2 && from->n_history == 0, converged;
 
     power_meter_drop(p->meter);
+    p->options.hurry = p->failures < 2;
     if (started)
         TRY(start(p, from, dt, &converged, err));
     else
         TRY(step(p, from, &p->trial[0], p->order, dt, &converged, err));
+    p->failures = converged || p->too_far ? 0 : p->failures + 1;
     *outcome = converged ? STEP_DONE : p->too_far ? STEP_TOO_FAR : STEP_NEWTON;
     if (!converged)
         linear_forget(&p->system->linear);

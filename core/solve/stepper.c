@@ -120,6 +120,23 @@ typedef struct tries {
 #define JUMP 10
 enum { FLAT_JUMP = 5 };
 
+/* A body that moves by less than this, in cells, moves by little even for its mesh: what changes then is roughness.
+ */
+#define CREEPS 0.02
+
+static int creeps(const stepper *p, double dt)
+{
+    double most = 0;
+
+    for (int k = 0; k < p->bodies->n; k++) {
+        double v[6];
+
+        measure_motion(&p->measure, k, p->trial[0].x, v);
+        most = fmax(most, sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+    }
+    return most > 0 && most * dt < CREEPS * p->bodies->h_mean;
+}
+
 /* Whether the try with this error is accepted; else *dt is another length. */
 static int judge(stepper *p, tries *t, const step_error *e, double *dt)
 {
@@ -128,7 +145,7 @@ static int judge(stepper *p, tries *t, const step_error *e, double *dt)
     if (e->error <= fmax(1, c->floor) || t->jumped || c->jumped)
         return 1;
     t->flat = t->error > 0 && e->error > t->error * pow(*dt / t->dt, FLAT) ? t->flat + 1 : 0;
-    if (t->flat && e->whole < JUMP * p->tolerance) {
+    if ((t->flat || creeps(p, *dt)) && e->whole < JUMP * p->tolerance) {
         c->floor = 1.5 * e->error;
         t->rough = 1;
         p->now->count.rough++;

@@ -34,6 +34,7 @@ typedef struct stepper {
     double *reaction[REACTIONS], *saved[REACTIONS]; /* [n_dof]; without bodies only that of all terms */
     power_meter *meter;                             /* reads at the end of every step; NULL: none */
     newton_report report;
+    int failures;     /* of Newton's method in a row: it then gets simpler predictions, and more time */
     double tolerance; /* of steps that choose their length; 0: they do not */
     double least;     /* no step is shorter than this, s */
     step_measure measure;
