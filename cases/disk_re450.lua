@@ -6,8 +6,10 @@
 case "Disk falling fast"
 
 local n = param("n", 16, "cells per cm")
-local dt = param("dt", 0.001, "time step, s")
-local stop = param("stop", 0.25, "end, s")
+local tolerance = param("tolerance", 1e-2, "of steps that choose their length")
+local dt = param("dt", 0, "length of all steps instead, s")
+local stop = param("stop", 0.4, "end, s")
+local stabilise = param("stabilise", false, "terms against convection that the mesh does not resolve")
 local formulation = param("formulation", "sharp", "sharp or conservative")
 local d, rho, mu = 0.25, 1.5, 0.01
 
@@ -18,13 +20,15 @@ term "continuity" {}
 term "momentum" {}
 particulate(formulation)
 term "contact.repulsion" { range = 0.06 }
+term "contact.lubrication" {}                      -- films thinner than cells
+if stabilise then term "stabilise" {} end
 
 boundary "*" { u = {0, 0} }
 
 particle { shape = disk { radius = d / 2 }, density = rho, at = {1, 4} }
 
-time   { scheme = "bdf2", step = dt, stop = stop }
-output { every = dt * math.ceil(stop / dt / 20 - 1e-9) }
+if dt > 0 then time { step = dt, stop = stop } else time { tolerance = tolerance, stop = stop } end
+output { every = stop / 20 }
 
 results(function(r)
   local v, most, when = r.series["p0.v"], 0, 0

@@ -67,10 +67,13 @@ static int one_step(run *r, double next, error *err)
     problem *p = r->p;
     int64_t iterations = p->state.count.newton_iterations;
     int free = p->description.time.tolerance > 0;
+    error later;
     int status =
         free ? stepper_advance_freely(r->stepper, next, err) : stepper_advance(r->stepper, next - p->state.t, err);
 
     run_warn_order(r, &r->stepper->report);
+    if (run_log_failures(r, status ? &later : err) && !status)
+        status = err->code;
     TRY(status);
     if (!free || fabs(p->state.t - next) <= 1e-6 * p->state.dt_previous)
         p->state.t = next; /* steps add up to it but for round-off */

@@ -37,6 +37,28 @@ int run_log_solve(run *r, double t, double dt, const newton_report *report, erro
     return status;
 }
 
+int run_log_failures(run *r, error *err)
+{
+    const stepper *p = r->stepper;
+
+    for (int i = 0; i < p->n_failed && i < STEPPER_FAILURES; i++) {
+        const failed_try *f = &p->failed[i];
+        text s = {0};
+        int status;
+
+        text_add(&s, "\"t\": ");
+        text_number(&s, f->t);
+        text_add(&s, ", \"dt\": ");
+        text_number(&s, f->dt);
+        text_add(&s, ", \"why\": ");
+        text_json(&s, f->why);
+        status = s.failed ? error_memory(err, "log", 0) : output_event(r, "repeated", s.s, err);
+        text_free(&s);
+        TRY(status);
+    }
+    return 0;
+}
+
 /* A warning if what flows in does not flow out. */
 void run_warn_defect(run *r)
 {

@@ -93,6 +93,7 @@ int march(run *r, const volatile sig_atomic_t *stop, error *err);
 /* What both kinds of runs do after a solution (report.c): a line of the log; warnings; r->x, the solution as it is
  * shown. */
 int run_log_solve(run *r, double t, double dt, const newton_report *report, error *err);
+int run_log_failures(run *r, error *err); /* the tries at the last step that failed */
 void run_warn_defect(run *r);
 void run_warn_singular(run *r, const newton_report *report);
 void run_warn_order(run *r, const newton_report *report);

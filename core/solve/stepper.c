@@ -68,8 +68,21 @@ static void accept(stepper *p)
     p->now->count.steps++;
 }
 
-static void count_failure(stepper *p, enum step_outcome outcome)
+static void keep_reason(stepper *p, double dt, const char *why)
 {
+    if (p->n_failed < STEPPER_FAILURES) {
+        failed_try *f = &p->failed[p->n_failed];
+
+        f->t = p->now->t;
+        f->dt = dt;
+        snprintf(f->why, sizeof f->why, "%s", why);
+    }
+    p->n_failed++;
+}
+
+static void count_failure(stepper *p, enum step_outcome outcome, double dt)
+{
+    keep_reason(p, dt, p->report.why);
     p->now->count.halved += outcome == STEP_NEWTON;
     p->now->count.shortened += outcome == STEP_TOO_FAR;
 }
@@ -93,13 +106,14 @@ static int advance(stepper *p, double dt, int halvings, error *err)
     if (halvings == HALVINGS)
         return error_set(err, ERR_CONVERGE, "no convergence at t = %.6g with a step of %.3g, %d times halved: %s",
                          now->t, dt, HALVINGS, p->report.why);
-    count_failure(p, outcome);
+    count_failure(p, outcome, dt);
     TRY(advance(p, dt / 2, halvings + 1, err));
     return advance(p, dt / 2, halvings + 1, err);
 }
 
 int stepper_advance(stepper *p, double dt, error *err)
 {
+    p->n_failed = 0;
     return advance(p, dt, 0, err);
 }
 
@@ -141,6 +155,7 @@ static int creeps(const stepper *p, double dt)
 static int judge(stepper *p, tries *t, const step_error *e, double *dt)
 {
     step_control *c = &p->now->control;
+    char why[100];
 
     if (e->error <= fmax(1, c->floor) || t->jumped || c->jumped)
         return 1;
@@ -160,6 +175,8 @@ static int judge(stepper *p, tries *t, const step_error *e, double *dt)
         p->now->n_history = 0;
         return 0;
     }
+    snprintf(why, sizeof why, "its error is %.3g of what is allowed", e->error);
+    keep_reason(p, *dt, why);
     t->error = e->error;
     t->dt = *dt;
     *dt = t->flat ? *dt / 2 : control_shorten(e->error, *dt);
@@ -183,7 +200,7 @@ static int try_until_done(stepper *p, double *dt, tries *t, step_error *e, doubl
         if (outcome == STEP_DONE && judge(p, t, e, dt))
             return 0;
         if (outcome != STEP_DONE) {
-            count_failure(p, outcome);
+            count_failure(p, outcome, *dt);
             *dt *= outcome == STEP_NEWTON ? 0.5 : 0.7;
         }
     }
@@ -198,6 +215,7 @@ int stepper_advance_freely(stepper *p, double until, error *err)
     step_error e = {-1, 0};
     tries t = {0};
 
+    p->n_failed = 0;
     TRY(try_until_done(p, &dt, &t, &e, size, err));
     memcpy(c->scale, size, sizeof size);
     if (t.jumped)

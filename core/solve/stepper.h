@@ -20,6 +20,14 @@ enum reaction {
     REACTIONS
 };
 
+/* A try at a step that came to nothing, and why. */
+typedef struct failed_try {
+    double t, dt;
+    char why[600];
+} failed_try;
+
+enum { STEPPER_FAILURES = 8 };
+
 typedef struct stepper {
     newton_system *system;
     bodies *bodies;
@@ -38,6 +46,8 @@ typedef struct stepper {
     double tolerance; /* of steps that choose their length; 0: they do not */
     double least;     /* no step is shorter than this, s */
     step_measure measure;
+    int n_failed; /* tries of the last step that failed; of so many the reasons are kept: */
+    failed_try failed[STEPPER_FAILURES];
     enum too_far too_far;   /* why the last step was refused before or after it was solved */
     int said[FAR_BODY + 1]; /* warnings given */
     arena memory;
