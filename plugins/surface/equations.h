@@ -51,6 +51,38 @@ static int F(nitsche)(const pf_batch *b, const NUM *const *in, NUM *const *out)
     return PF_OK;
 }
 
+/* -beta rho (w . n)_- w . z, (s)_- = min(s, 0): where fluid comes out of the surface, which it should not, the
+ * energy that convection brings with it is taken away */
+static int F(inflow)(const pf_batch *b, const NUM *const *in, NUM *const *out)
+{
+    const struct inflow *s = b->params;
+    const double *restrict r = b->arm;
+    const uint32_t dim = b->dim;
+    NUM *restrict v = out[0], *restrict V = out[1], *restrict xi = out[2];
+
+    PF_LANES_OF (b, i) {
+        NUM w[3], z[3] = {0}, inward = 0;
+
+        F(slip)(b, in[0], in[1], in[2], i, w);
+        for (uint32_t a = 0; a < dim; a++)
+            inward += w[a] * b->normal[a * LD + i];
+        inward = creal(inward) < 0 ? inward : 0;
+        for (uint32_t a = 0; a < dim; a++) {
+            z[a] = -s->inflow * s->density * inward * w[a];
+            v[a * LD + i] = z[a];
+            V[a * LD + i] = -z[a];
+        }
+        if (dim == 2)
+            xi[i] = r[LD + i] * z[0] - r[i] * z[1];
+        for (uint32_t a = 0; dim == 3 && a < 3; a++) {
+            const uint32_t j = (a + 1) % 3, k = (a + 2) % 3;
+
+            xi[a * LD + i] = r[k * LD + i] * z[j] - r[j * LD + i] * z[k];
+        }
+    }
+    return PF_OK;
+}
+
 /* (g_u mu/h^2 + g_t rho c0/dt) du . dv  +  g_p/mu dp dq;  d: what differs from the polynomial of the root */
 static int F(extension)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {

@@ -11,10 +11,17 @@ struct surface {
     double gamma;     /* penalty of the slip       */
 };
 
+struct inflow {
+    double density; /* rho, kg/m^3             */
+    double inflow;  /* 1: all, 1/2: as much as convection brings */
+};
+
 struct extension {
     double density, viscosity; /* rho, kg/m^3; mu, Pa s     */
     double g_u, g_t, g_p;      /* weights of the ties       */
 };
+
+#include <tgmath.h>
 
 #include <plugflow/twin_real.h>
 #include "equations.h"
@@ -34,6 +41,19 @@ static const pf_term nitsche = {
            {"V", "U", PF_VALUE, PF_VECTOR}, {"xi", "omega", PF_VALUE, PF_SPIN}),
     PF_PARAMS(struct surface, PF_VISCOSITY(struct surface),
               PF_NUMBER(struct surface, gamma, "1", "penalty of the slip, in mu/h", .dflt = 20, PF_NOT_NEGATIVE)),
+};
+
+static const pf_term inflow = {
+    PF_TERM(inflow),
+    .where = PF_SURFACE,
+    .flags = PF_FLUID_FORCE | PF_CONTINUATION,
+    .doc = "-\\beta\\rho\\,(w\\cdot n)_-\\,w\\cdot z",
+    .cite = "Bertoglio and Caiazzo 2014, Int. J. Numer. Methods Biomed. Eng. 30:4 (at outflows)",
+    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"U", "U", PF_VALUE, PF_VECTOR}, {"omega", "omega", PF_VALUE, PF_SPIN}),
+    PF_OUT({"v", "u", PF_VALUE, PF_VECTOR}, {"V", "U", PF_VALUE, PF_VECTOR}, {"xi", "omega", PF_VALUE, PF_SPIN}),
+    PF_PARAMS(struct inflow, PF_DENSITY(struct inflow),
+              PF_NUMBER(struct inflow, inflow, "1", "strength against inflow through surfaces", .dflt = 1,
+                        PF_NOT_NEGATIVE)),
 };
 
 static const pf_term extension = {
@@ -60,6 +80,6 @@ static const pf_plugin surface = {
     .license = "GPL-3.0-or-later",
     .doc = "sharp surfaces of rigid bodies in cut cells",
     PF_FIELDS(PF_FIELD_VELOCITY, PF_FIELD_PRESSURE, PF_FIELD_BODY_VELOCITY(.constrains = "u"), PF_FIELD_BODY_SPIN),
-    PF_TERMS(&nitsche, &extension),
+    PF_TERMS(&nitsche, &inflow, &extension),
 };
 PF_ENTRY(surface)
