@@ -9,6 +9,7 @@ local unsteady = param("unsteady", false, "2D-2 instead of 2D-1")
 local kind = param("case", unsteady and "2D-2" or "2D-1", "2D-1, 2D-2 or 2D-3")
 local dt = param("dt", kind == "2D-3" and 0.005 or 0.01, "time step of 2D-2 and 2D-3")
 local stop = param("stop", 8, "end of 2D-2 and 2D-3")
+local tolerance = param("tolerance", 0, "of steps that choose their length; 0: all are dt")
 
 local steady = kind == "2D-1"
 local umax, h, d = steady and 0.3 or 1.5, 0.41, 0.1
@@ -30,7 +31,7 @@ boundary "walls"    { u = {0, 0} }
 boundary "cylinder" { u = {0, 0} }
 
 if not steady then
-  time { scheme = "bdf2", step = dt, stop = stop }
+  if tolerance > 0 then time { tolerance = tolerance, stop = stop } else time { scheme = "bdf2", step = dt, stop = stop } end
 end
 
 output { every = dt * math.ceil(stop / dt / 20 - 1e-9), forces = {"cylinder"}, about = {0.2, 0.2},

@@ -25,7 +25,9 @@ initial {
   end,
   p = function(x, y, z) return (math.cos(2 * x) + math.cos(2 * y)) * (math.cos(2 * z) + 2) / 16 end
 }
-time { scheme = "bdf2", step = dt, stop = stop }
+local tolerance = param("tolerance", 0, "of steps that choose their length; 0: all are dt")
+if tolerance > 0 then time { tolerance = tolerance, stop = stop } else time { scheme = "bdf2", step = dt, stop = stop } end
+if param("stabilise", false, "terms against convection that the mesh does not resolve") then term "stabilise" {} end
 
 -- Against a flow at rest the errors are norms of the flow itself.
 exact  { u = {0, 0, 0} }
