@@ -68,21 +68,22 @@ static void accept(stepper *p)
     p->now->count.steps++;
 }
 
-static void keep_reason(stepper *p, double dt, const char *why)
+/* p->report.why: of the try that failed. */
+static void keep_reason(stepper *p, double dt)
 {
     if (p->n_failed < STEPPER_FAILURES) {
         failed_try *f = &p->failed[p->n_failed];
 
         f->t = p->now->t;
         f->dt = dt;
-        snprintf(f->why, sizeof f->why, "%s", why);
+        snprintf(f->why, sizeof f->why, "%s", p->report.why);
     }
     p->n_failed++;
 }
 
 static void count_failure(stepper *p, enum step_outcome outcome, double dt)
 {
-    keep_reason(p, dt, p->report.why);
+    keep_reason(p, dt);
     p->now->count.halved += outcome == STEP_NEWTON;
     p->now->count.shortened += outcome == STEP_TOO_FAR;
 }
@@ -155,7 +156,6 @@ static int creeps(const stepper *p, double dt)
 static int judge(stepper *p, tries *t, const step_error *e, double *dt)
 {
     step_control *c = &p->now->control;
-    char why[100];
 
     if (e->error <= fmax(1, c->floor) || t->jumped || c->jumped)
         return 1;
@@ -175,8 +175,8 @@ static int judge(stepper *p, tries *t, const step_error *e, double *dt)
         p->now->n_history = 0;
         return 0;
     }
-    snprintf(why, sizeof why, "its error is %.3g of what is allowed", e->error);
-    keep_reason(p, *dt, why);
+    snprintf(p->report.why, sizeof p->report.why, "its error is %.3g of what is allowed", e->error);
+    keep_reason(p, *dt);
     t->error = e->error;
     t->dt = *dt;
     *dt = t->flat ? *dt / 2 : control_shorten(e->error, *dt);
@@ -194,7 +194,7 @@ static int try_until_done(stepper *p, double *dt, tries *t, step_error *e, doubl
         if (*dt < p->least)
             return error_set(err, ERR_CONVERGE,
                              "at t = %.6g no step is short enough: the last try, of %.3g, failed: %s", p->now->t,
-                             *dt, t->error > 0 ? "its error was too large" : p->report.why);
+                             *dt, p->report.why);
         memcpy(size, c->scale, sizeof c->scale);
         TRY(step_try(p, *dt, &outcome, e, size, err));
         if (outcome == STEP_DONE && judge(p, t, e, dt))
