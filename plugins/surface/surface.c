@@ -52,7 +52,8 @@ static const pf_term inflow = {
     PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"U", "U", PF_VALUE, PF_VECTOR}, {"omega", "omega", PF_VALUE, PF_SPIN}),
     PF_OUT({"v", "u", PF_VALUE, PF_VECTOR}, {"V", "U", PF_VALUE, PF_VECTOR}, {"xi", "omega", PF_VALUE, PF_SPIN}),
     PF_PARAMS(struct inflow, PF_DENSITY(struct inflow),
-              PF_NUMBER(struct inflow, inflow, "1", "strength against inflow through surfaces", .dflt = 1,
+              PF_NUMBER(struct inflow, inflow, "1",
+                        "strength against inflow through surfaces; 1/2 takes what convection brings", .dflt = 0.5,
                         PF_NOT_NEGATIVE)),
 };
 
