@@ -37,13 +37,14 @@ static int F(grad_div)(const pf_batch *b, const NUM *const *in, NUM *const *out)
     return PF_OK;
 }
 
-/* m, the square of rho over the time scale: rho^2 (c s)^2 + rho^2 w.G w + C mu^2 G:G, with the metric G and the
- * factor s of the time scheme.  No viscosity and no flow: not quite zero. */
+/* m, which is (c / tau)^2: rho^2 (2 c s)^2 + rho^2 w.G w + C mu^2 G:G, with the metric G and the factor s of the
+ * time scheme, so that the strength c weakens tau where convection or viscosity make it, and the step bounds it. No
+ * viscosity and no flow: not quite zero. */
 static inline NUM F(rate)(const pf_batch *b, const NUM *w, uint32_t i)
 {
     const struct streamline *s = b->params;
     const double *restrict g = b->metric;
-    const double rho2 = s->density * s->density, by_time = BY_TIME * b->shift;
+    const double rho2 = s->density * s->density, by_time = BY_TIME * s->streamline * b->shift;
     NUM m = rho2 * by_time * by_time + NO_ZERO;
 
     for (uint32_t j = 0; j < b->dim; j++)
@@ -70,7 +71,7 @@ static inline NUM F(residual_of)(const pf_batch *b, const NUM *const *in, uint32
            in[FORCE][a * LD + i];
 }
 
-/* c tau r . rho (w . grad) v with the residual r of momentum and tau = m^(-1/2).  w is the velocity; in unsteady
+/* tau r . rho (w . grad) v with the residual r of momentum and tau = c m^(-1/2).  w is the velocity; in unsteady
  * flow that of a step ago, so that test function and time scale stand still in Newton's method. */
 static int F(streamline)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {

@@ -7,7 +7,7 @@
 #include <tgmath.h>
 
 #define NO_ZERO          1e-300 /* so that fluid without viscosity may be at rest */
-#define BY_TIME          2.0    /* so that tau du/dt stays below half of what inertia holds against it */
+#define BY_TIME          2.0    /* tau is less than half of what the time scheme takes */
 #define INVERSE_ESTIMATE 60.0   /* C in h |lap v| <= sqrt(C) |grad v| of second-order elements */
 
 struct stabilise {
@@ -19,7 +19,7 @@ struct streamline {
     double density, viscosity; /* rho, kg/m^3; mu, Pa s                            */
     double gravity[3];         /* g, m/s^2                                         */
     int reduced_pressure;      /* 1: p is the pressure without rho g.x             */
-    double streamline;         /* strength, in tau                                 */
+    double streamline;         /* strength c: tau is c h/2|u| where convection prevails */
 };
 
 /* Inputs of streamline */
@@ -161,8 +161,18 @@ static const pf_term streamline = {
     PF_OUT({"grad_v", "u", PF_GRAD, PF_TENSOR}),
     PF_PARAMS(struct streamline, PF_DENSITY(struct streamline), PF_VISCOSITY(struct streamline),
               PF_GRAVITY(struct streamline), PF_REDUCED_PRESSURE(struct streamline),
-              PF_NUMBER(struct streamline, streamline, "1", "strength of the streamline term, in its time scale",
-                        .dflt = 1, PF_NOT_NEGATIVE)),
+              PF_NUMBER(struct streamline, streamline, "1", "strength of the streamline term, in h/2|u|",
+                        .dflt = 0.01, PF_NOT_NEGATIVE)),
+    /* the metric of worked examples is (4 1; 1 2), the factor of the time scheme 15: m = 4 (2 0.1 15)^2 + 4 22 + 60
+     * 22, tau = 0.1/38; residual 2 (1 + 11, -2 + 17 + 10) + (7, 1) - (2, -3) - (5, 4) = (24, 50) */
+    PF_EXAMPLES(
+        {"rho = 2, mu = 1, c = 0.1, g = (0, -10); u = (1, 2) is carried by w = (2, 1), grad u = (3 4; 5 6), "
+         "lap u = (2, -3), grad p = (7, 1), du/dt = (1, -2), f = (5, 4)",
+         2, (double[]){2, 1, 0, -10, 0, 0.1}, (double[]){1, 2, 2, 1, 3, 4, 5, 6, 2, -3, 7, 1, 1, -2, 5, 4},
+         (double[]){48.0 / 190, 24.0 / 190, 100.0 / 190, 50.0 / 190}, 1e-14},
+        {"the same with the reduced pressure: residual (24, 30)", 2, (double[]){2, 1, 0, -10, 1, 0.1},
+         (double[]){1, 2, 2, 1, 3, 4, 5, 6, 2, -3, 7, 1, 1, -2, 5, 4},
+         (double[]){48.0 / 190, 24.0 / 190, 60.0 / 190, 30.0 / 190}, 1e-14}),
     .jacobian = streamline_jacobian,
 };
 
