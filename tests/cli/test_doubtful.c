@@ -40,6 +40,10 @@ static void bodies_that_mean_something_else_are_doubted(void **state)
          0,
          {"ok", "!warning"}},
         {"9 term \"stabilise.streamline\" {}", 0, {"ok", "!warning"}},
+        {"9 particulate \"conservative\"\n18 term \"stabilise.streamline\" {}\n" DISK(10, "{1, 0.5}") TIME,
+         3,
+         {"multiplier.rigid_motion holds u inside of bodies",
+          "stabilise.streamline acts outside of them only: leave it out"}},
     };
 
     (void)state;
