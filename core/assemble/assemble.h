@@ -179,7 +179,7 @@ typedef struct assembly_spec {
 enum {
     ASSEMBLE_COUPLING = 1 << 30, /* on points of bodies, with a field of the mesh: what bodies and fluid exchange */
     ASSEMBLE_CONTACT = 1 << 29,  /* on pairs */
-    ASSEMBLE_INERTIA = 1 << 28   /* with a rate d/dt among its inputs */
+    ASSEMBLE_INERTIA = 1 << 28   /* d/dt of a field on its own test function */
 };
 
 /* The power of a term: its rows, each times its own unknown, added up. */

@@ -146,8 +146,7 @@ static uint32_t kinds(const assembly *a, const plan_use *p)
         if (s->eval != PF_DATA && a->space->field[space_find_field(a->space, s->field)].order > 0)
             k |= ASSEMBLE_COUPLING;
     }
-    for (uint32_t i = 0; i < t->n_in; i++)
-        k |= t->in[i].eval == PF_DOT ? ASSEMBLE_INERTIA : 0;
+    k |= term_stores(t, NULL) ? ASSEMBLE_INERTIA : 0;
     return k | (t->where == PF_PAIR ? ASSEMBLE_CONTACT : 0);
 }
 

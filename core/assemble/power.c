@@ -52,7 +52,8 @@ int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, c
     int rates = 0, known = 1;
 
     for (uint32_t k = 0; k < t->n_in; k++) {
-        int field = c->input[p->in[k]].field, counts = t->in[k].eval == PF_DOT && s->power->fields >> field & 1;
+        int field = c->input[p->in[k]].field,
+            counts = t->in[k].eval == PF_DOT && s->power->fields >> field & 1 && term_stores(t, t->in[k].field);
 
         still[k] = counts ? (const double *)w->still : in[k];
         moved[k] = counts ? values_of(c, field, w) : in[k];

@@ -63,10 +63,7 @@ static const case_block *zero_of(const description *d, int use, const char *name
 static int is_diffused(const description *d, const char *field, const term_plugin *but)
 {
     for (int i = 0; i < d->n_use; i++) {
-        const pf_term *t = d->use[i].term;
-
-        if (d->use[i].plugin != but && is_on_cells(&d->use[i]) && slot_of(t->in, t->n_in, field, PF_GRAD) &&
-            slot_of(t->out, t->n_out, field, PF_GRAD))
+        if (d->use[i].plugin != but && is_on_cells(&d->use[i]) && term_diffuses(d->use[i].term, field))
             return 1;
     }
     return 0;
@@ -82,7 +79,8 @@ static void check_viscosity(const description *d)
         int stress = u->where == PF_SURFACE || u->where == PF_CUT;
 
         for (uint32_t o = 0; b && is_on_cells(u) && o < u->term->n_out; o++)
-            stress |= u->term->out[o].eval == PF_GRAD && !is_diffused(d, u->term->out[o].field, u->plugin);
+            stress |=
+                term_diffuses(u->term, u->term->out[o].field) && !is_diffused(d, u->term->out[o].field, u->plugin);
         if (b && stress)
             case_wrong(d->c, b, "viscosity",
                        "%s%s%s%s: \"viscosity\" (%s, %s) is 0; it must be positive: nothing else dissipates, so a "
@@ -193,6 +191,48 @@ static void check_shared(const description *d)
         }
 }
 
+static int is_given(const value *v)
+{
+    int given = v->f != NULL;
+
+    for (int i = 0; i < v->n; i++)
+        given |= v->constant[i] != 0;
+    return given;
+}
+
+/* Whether two terms act on the same rows, so that data of one name is the same thing. */
+static int share_rows(const term_use *a, const term_use *b)
+{
+    for (uint32_t o = 0; o < a->term->n_out; o++)
+        if (slot_of(b->term->out, b->term->n_out, a->term->out[o].field, 0))
+            return 1;
+    return 0;
+}
+
+/* Data that one of two terms was given, and not the other that has the same key. */
+static void check_data(const description *d, const term_use *with, const term_use *without)
+{
+    for (uint32_t k = 0; k < with->term->n_in; k++)
+        for (uint32_t j = 0; j < without->term->n_in; j++) {
+            const pf_slot *a = &with->term->in[k], *b = &without->term->in[j];
+
+            if (a->eval == PF_DATA && b->eval == PF_DATA && a->shape == b->shape && strcmp(a->name, b->name) == 0 &&
+                with->data[k] && without->data[j] && is_given(with->data[k]) && !is_given(without->data[j]))
+                warning_add(d->warnings,
+                            "%s.%s has \"%s\", and %s.%s, which takes the same, has not: give it on both lines",
+                            with->plugin->d.name, with->term->name, a->name, without->plugin->d.name,
+                            without->term->name);
+        }
+}
+
+static void check_all_data(const description *d)
+{
+    for (int i = 0; i < d->n_use; i++)
+        for (int k = 0; k < d->n_use; k++)
+            if (is_on_cells(&d->use[i]) && is_on_cells(&d->use[k]) && share_rows(&d->use[i], &d->use[k]))
+                check_data(d, &d->use[i], &d->use[k]);
+}
+
 /* A body with a prescribed motion stands in a steady case. */
 static void check_motion(const description *d)
 {
@@ -212,6 +252,7 @@ void describe_check_terms(const description *d)
     if (d->incomplete)
         return;
     check_shared(d);
+    check_all_data(d);
     check_motion(d);
     check_viscosity(d);
     check_density(d);

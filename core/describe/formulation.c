@@ -234,11 +234,10 @@ static void check_regions(const description *d)
                     return;
                 }
                 if (held && cells->where == PF_FLUID && writes(cells, held) && writes(tie, g->name)) {
-                    case_wrong(
-                        d->c, case_find(d->c, "fluid", 0), "region",
-                        "%s.%s holds %s inside of bodies, but %s.%s acts outside of them only: leave region = "
-                        "\"outside\" and over = \"fluid\" out",
-                        tie->plugin->d.name, tie->term->name, held, cells->plugin->d.name, cells->term->name);
+                    case_wrong(d->c, case_find(d->c, "fluid", 0), "region",
+                               "%s.%s holds %s inside of bodies, but %s.%s acts outside of them only: leave %s out",
+                               tie->plugin->d.name, tie->term->name, held, cells->plugin->d.name, cells->term->name,
+                               cells->term->where == PF_FLUID ? "it" : "region = \"outside\" and over = \"fluid\"");
                     return;
                 }
             }

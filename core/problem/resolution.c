@@ -52,7 +52,7 @@ void problem_numbers(const description *d, const char *field, double *density, d
             continue;
         if (problem_carries(u, field))
             *density = fmax(*density, number_of(u, "density"));
-        if (has_slot(t->out, t->n_out, field, PF_GRAD))
+        if (term_diffuses(t, field))
             *viscosity += number_of(u, "viscosity");
     }
 }

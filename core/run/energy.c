@@ -46,17 +46,15 @@ enum role { ROLE_NONE, ROLE_INERTIA, ROLE_CONVECTION, ROLE_GIVEN, ROLE_OTHER };
 static enum role role_of(const struct flow_energy *e, const space *s, const term_use *u)
 {
     const pf_term *t = u->term;
-    int rows = 0, unknowns = 0, rates = 0;
+    int rows = 0, unknowns = 0;
 
     for (uint32_t o = 0; o < t->n_out; o++)
         rows |= (int)(e->meter.now.fields >> space_find_field(s, t->out[o].field) & 1);
-    for (uint32_t k = 0; k < t->n_in; k++) {
+    for (uint32_t k = 0; k < t->n_in; k++)
         unknowns |= term_is_unknown(&t->in[k]);
-        rates |= t->in[k].eval == PF_DOT;
-    }
     if (!rows)
         return ROLE_NONE;
-    if (rates)
+    if (term_stores(t, NULL))
         return ROLE_INERTIA;
     if (e->field >= 0 && problem_carries(u, s->field[e->field].name))
         return ROLE_CONVECTION;

@@ -29,6 +29,30 @@ int term_is_unknown(const pf_slot *s)
     return s->eval != PF_OLD && s->eval != PF_DATA;
 }
 
+int term_stores(const pf_term *t, const char *field)
+{
+    for (uint32_t k = 0; k < t->n_in; k++)
+        for (uint32_t o = 0; o < t->n_out && t->in[k].eval == PF_DOT; o++)
+            if (t->out[o].eval == PF_VALUE && strcmp(t->out[o].field, t->in[k].field) == 0 &&
+                (!field || strcmp(field, t->in[k].field) == 0))
+                return 1;
+    return 0;
+}
+
+static int holds(const pf_slot *slot, uint32_t n, const char *field, uint32_t eval)
+{
+    for (uint32_t i = 0; i < n; i++)
+        if (slot[i].eval == eval && strcmp(slot[i].field, field) == 0)
+            return 1;
+    return 0;
+}
+
+int term_diffuses(const pf_term *t, const char *field)
+{
+    return holds(t->in, t->n_in, field, PF_GRAD) && holds(t->out, t->n_out, field, PF_GRAD) &&
+           !holds(t->in, t->n_in, field, PF_LAPLACE);
+}
+
 uint32_t term_slot_shape(uint32_t eval, uint32_t field_shape)
 {
     switch (eval) {

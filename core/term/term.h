@@ -58,6 +58,12 @@ int term_adopt(const pf_plugin *d, const char *path, arena *memory, term_plugin 
 int term_components(uint32_t shape, int dim);
 /* 1 if the slot is an unknown, so that a Jacobian block belongs to it. */
 int term_is_unknown(const pf_slot *s);
+/* 1 if d/dt of a field meets the field's own test function (field NULL: of any): it stores.  A residual that
+ * stabilises has rates, too, but meets slopes of the test function. */
+int term_stores(const pf_term *t, const char *field);
+/* 1 if slopes of a field meet slopes of its test function: it is a flux that spreads the field.  With its Laplacian
+ * among the inputs it is a residual that stabilises. */
+int term_diffuses(const pf_term *t, const char *field);
 /* Shape that the slot must have for a field of this shape, or 0. */
 uint32_t term_slot_shape(uint32_t eval, uint32_t field_shape);
 const char *term_where_name(uint32_t where);

@@ -31,6 +31,35 @@ static int F(advection)(const pf_batch *b, const NUM *const *in, NUM *const *out
     return PF_OK;
 }
 
+/* tau (rho c (dT/dt + u . grad T) - k lap T) rho c (w . grad s),   rho c tau = rho c / sqrt(m),
+ * m = (rho c)^2 (4 s^2 + w . G w) + C k^2 G : G, with the metric G and the factor s of the time scheme.  w is the
+ * velocity; in unsteady flow that of a step ago, so that only the residual moves in Newton's method. */
+static int F(streamline)(const pf_batch *b, const NUM *const *in, NUM *const *out)
+{
+    const struct heat *h = b->params;
+    const NUM *restrict u = in[0], *restrict w = b->shift > 0 ? in[1] : u, *restrict grad_T = in[2],
+                        *restrict lap_T = in[3], *restrict T_t = in[4];
+    const double *restrict g = b->metric, rc = h->density * h->heat_capacity;
+    NUM *restrict grad_s = out[0];
+
+    PF_LANES_OF (b, i) {
+        NUM r = rc * T_t[i] - h->conductivity * lap_T[i], m = 4 * rc * rc * b->shift * b->shift + NO_ZERO;
+
+        for (uint32_t j = 0; j < b->dim; j++) {
+            r += rc * u[j * LD + i] * grad_T[j * LD + i];
+            for (uint32_t k = 0; k < b->dim; k++) {
+                const double g_jk = g[(j * b->dim + k) * LD + i];
+
+                m += rc * rc * w[j * LD + i] * g_jk * w[k * LD + i] +
+                     INVERSE_ESTIMATE * h->conductivity * h->conductivity * g_jk * g_jk;
+            }
+        }
+        for (uint32_t k = 0; k < b->dim; k++)
+            grad_s[k * LD + i] = rc / sqrt(m) * r * w[k * LD + i];
+    }
+    return PF_OK;
+}
+
 /* k grad T . grad s */
 static int F(diffusion)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {

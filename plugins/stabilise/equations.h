@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What keeps flow stable where the mesh does not resolve it: what happens at one point.  All terms vanish with
- * div u, so that the exact solution satisfies the equations with them, too. */
+ * What keeps flow stable where the mesh does not resolve it: what happens at one point.  The terms vanish with div
+ * u or with the residual of momentum, so that the exact solution satisfies the equations with them, too. */
 
 /* 1/2 rho (div u) u . v: with it convection has no power of its own where div u_h is not zero */
 static int F(skew)(const pf_batch *b, const NUM *const *in, NUM *const *out)
@@ -33,6 +33,61 @@ static int F(grad_div)(const pf_batch *b, const NUM *const *in, NUM *const *out)
             r2 += w[k * LD + i] * w[k * LD + i];
         r2 *= rho_h * rho_h;
         div_v[i] = s->grad_div * r2 / sqrt(r2 + s->viscosity * s->viscosity + NO_ZERO) * div_u[i];
+    }
+    return PF_OK;
+}
+
+/* m, which is (c / tau)^2: rho^2 (2 c s)^2 + rho^2 w.G w + C mu^2 G:G, with the metric G and the factor s of the
+ * time scheme, so that the strength c weakens tau where convection or viscosity make it, and the step bounds it. No
+ * viscosity and no flow: not quite zero. */
+static inline NUM F(rate)(const pf_batch *b, const NUM *w, uint32_t i)
+{
+    const struct streamline *s = b->params;
+    const double *restrict g = b->metric;
+    const double rho2 = s->density * s->density, by_time = BY_TIME * s->streamline * b->shift;
+    NUM m = rho2 * by_time * by_time + NO_ZERO;
+
+    for (uint32_t j = 0; j < b->dim; j++)
+        for (uint32_t k = 0; k < b->dim; k++) {
+            const double g_jk = g[(j * b->dim + k) * LD + i];
+
+            m += rho2 * w[j * LD + i] * g_jk * w[k * LD + i] +
+                 INVERSE_ESTIMATE * s->viscosity * s->viscosity * g_jk * g_jk;
+        }
+    return m;
+}
+
+/* Component a of the residual of momentum: rho (du/dt + (u . grad) u - g) + grad p - mu lap u - f; without rho g if
+ * p is the reduced pressure. */
+static inline NUM F(residual_of)(const pf_batch *b, const NUM *const *in, uint32_t a, uint32_t i)
+{
+    const struct streamline *s = b->params;
+    const NUM *restrict u = in[U], *restrict grad_u = in[GRAD_U];
+    NUM rate = in[U_T][a * LD + i] - (s->reduced_pressure ? 0 : s->gravity[a]);
+
+    for (uint32_t k = 0; k < b->dim; k++)
+        rate += u[k * LD + i] * grad_u[(a * b->dim + k) * LD + i];
+    return s->density * rate + in[GRAD_P][a * LD + i] - s->viscosity * in[LAP_U][a * LD + i] -
+           in[FORCE][a * LD + i];
+}
+
+/* tau r . rho (w . grad) v with the residual r of momentum and tau = c m^(-1/2).  w is the velocity; in unsteady
+ * flow that of a step ago, so that test function and time scale stand still in Newton's method. */
+static int F(streamline)(const pf_batch *b, const NUM *const *in, NUM *const *out)
+{
+    const struct streamline *s = b->params;
+    const NUM *restrict w = is_steady(b) ? in[U] : in[OLD_U];
+    NUM *restrict grad_v = out[0];
+
+    PF_LANES_OF (b, i) {
+        const NUM rho_tau = s->streamline * s->density / sqrt(F(rate)(b, w, i));
+
+        for (uint32_t a = 0; a < b->dim; a++) {
+            const NUM r = rho_tau * F(residual_of)(b, in, a, i);
+
+            for (uint32_t k = 0; k < b->dim; k++)
+                grad_v[(a * b->dim + k) * LD + i] = r * w[k * LD + i];
+        }
     }
     return PF_OK;
 }

@@ -185,6 +185,11 @@ static void the_example_outside_the_tree_builds_tests_and_runs(void **state)
         plugflow("jacobian examples/scalar_transport/heated_cavity.lua --set n=4 --plugin %s/scalar_transport.so",
                  scratch()),
         0, "ok     d R_T / d u", "ok     d R_u / d T");
+    assert_ran(plugflow("run examples/scalar_transport/carried_profile.lua --quiet --plugin %s/scalar_transport.so "
+                        "--out %s/carried",
+                        scratch(), scratch()),
+               0, NULL);
+    assert_between(summary("carried", "errors.T.l2"), 2.5e-4, 2.9e-4); /* 1.3e-3 without the streamline term */
 }
 
 static void a_misspelt_command_or_option_is_a_usage_error(void **state)

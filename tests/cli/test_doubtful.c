@@ -30,6 +30,20 @@ static void bodies_that_mean_something_else_are_doubted(void **state)
         {"5 term \"momentum\" { viscosity = 1 }\n" SHARP FIXED(10, "shape = disk { radius = 0.3 }, at = {1, 0.5}"),
          0,
          {"warning: \"viscosity\" is 1 in momentum", "and 0.1 in surface"}},
+        {"5 term \"momentum\" { force = {1, 0} }\n9 term \"stabilise.streamline\" {}",
+         0,
+         {"warning: momentum.body_force has \"force\", and stabilise.streamline, which takes the same, has not"}},
+        {"9 term \"stabilise.streamline\" { force = {1, 0} }",
+         0,
+         {"warning: stabilise.streamline has \"force\", and momentum.body_force, which takes the same, has not"}},
+        {"5 term \"momentum\" { force = {1, 0} }\n9 term \"stabilise.streamline\" { force = {1, 0} }",
+         0,
+         {"ok", "!warning"}},
+        {"9 term \"stabilise.streamline\" {}", 0, {"ok", "!warning"}},
+        {"9 particulate \"conservative\"\n18 term \"stabilise.streamline\" {}\n" DISK(10, "{1, 0.5}") TIME,
+         3,
+         {"multiplier.rigid_motion holds u inside of bodies",
+          "stabilise.streamline acts outside of them only: leave it out"}},
     };
 
     (void)state;

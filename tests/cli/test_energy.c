@@ -104,6 +104,25 @@ static void what_drives_a_channel_is_dissipated(void **state)
                    2 * sqrt(1.0 / 8) / 0.1 * (1 + 1e-9));
 }
 
+/* A residual has the rate of the velocity in it, and viscosity, and is neither a kinetic energy nor a stress. */
+static void what_stabilises_by_a_residual_only_takes(void **state)
+{
+    static const char vortices[] = "run tests/verify/unresolved_vortices.lua --set stop=1 --set streamline=";
+    double start, reynolds;
+
+    (void)state;
+    assert_ran(plugflow("%s0 --out %s/o", vortices, scratch()), 0, NULL);
+    start = energy("kinetic_start");
+    reynolds = summary("o", "resolution.largest_cell_reynolds");
+    assert_ran(plugflow("%s0.1 --out %s/o", vortices, scratch()), 0, NULL);
+    assert_between(energy("kinetic_start") / start, 1 - 1e-12, 1 + 1e-12);
+    assert_between(summary("o", "resolution.largest_cell_reynolds") / reynolds, 0.99, 1.01);
+    assert_between(energy("in"), 0, 0);
+    assert_between(work("stabilise.streamline"), 1e-3, 1e-2);
+    assert_balanced(work("momentum.stress") + work("stabilise.grad_div") + work("stabilise.streamline"),
+                    2e-6 * start);
+}
+
 /* What a falling body loses in height is found again; its surface sweeps the domain of the fluid. */
 static void a_falling_body_keeps_the_balance(void **state)
 {
@@ -161,6 +180,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(taylor_green_vortices_decay_by_viscosity_alone),
         cmocka_unit_test(what_drives_a_channel_is_dissipated),
+        cmocka_unit_test(what_stabilises_by_a_residual_only_takes),
         cmocka_unit_test(a_falling_body_keeps_the_balance),
         cmocka_unit_test(convection_that_makes_energy_is_told),
         cmocka_unit_test(a_steady_case_has_the_cell_reynolds_number_only),

@@ -2,7 +2,7 @@
  *
  * Terms that stabilise convection, assembled: convection made skew-symmetric has no power; grad-div is symmetric,
  * takes power and is as large as its formula says. */
-#include "support/opened.h"
+#include "term/stabilised.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,18 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const shapes[] = {"quads", "triangles", "hexes", "tets"};
-
-enum { SHAPES = 4 };
-
-#define CASE                                                                                                       \
-    "local shape = param('shape', 'quads', 'shape of the cells')\n"                                                \
-    "local solid = shape == 'hexes' or shape == 'tets'\n"                                                          \
-    "mesh { box = solid and {{0, 0, 0}, {1.5, 1, 0.8}} or {{0, 0}, {1.5, 1}}, cells = solid and {4, 3, 3} or "     \
-    "{5, 4}, shape = shape }\n"                                                                                    \
-    "fluid { density = 1.3, viscosity = 0.07 }\n"                                                                  \
-    "term 'continuity' {}\ntime { scheme = 'bdf1', step = 0.1, stop = 1 }\n"
-
 static const char periodic_text[] = CASE "local skew = param('skew', true, 'with the term')\n"
                                          "term 'momentum.convection' {}\n"
                                          "if skew then term 'stabilise.skew' {} end\n"
@@ -37,44 +25,6 @@ static const char periodic_text[] = CASE "local skew = param('skew', true, 'with
 
 static const char open_text_of_grad_div[] = CASE "term 'stabilise.grad_div' { grad_div = 0.2 }\n"
                                                  "boundary '*' { natural = true }\n";
-
-static opened *open_shape(const char *text, const char *shape, const char *other)
-{
-    char set[64];
-
-    snprintf(set, sizeof set, "shape=%s", shape);
-    return open_text(text, (const char *[]){set, other}, other ? 2 : 1);
-}
-
-/* Residual and matrix at x, in k->p.system. */
-static void assemble(opened *k, const double *x)
-{
-    newton_system *sys = &k->p.system;
-    double *zero = calloc((size_t)k->p.space.n_dof, sizeof *zero);
-    assembly_state at = {.x = x, .dot = zero, .old = x};
-
-    assert_non_null(zero);
-    if (assembly_run(&sys->assembly, &at, sys->residual, sys->linear.value, 1, &k->err))
-        fail_msg("assembly: %s", k->err.text);
-    free(zero);
-}
-
-static int is_velocity(const space *s, int64_t dof)
-{
-    return strcmp(s->field[s->dof_field[dof]].name, "u") == 0;
-}
-
-static double *velocity_of(const opened *k, uint64_t seed)
-{
-    const space *s = &k->p.space;
-    double *x = malloc((size_t)s->n_dof * sizeof *x);
-
-    assert_non_null(x);
-    fill_random(x, s->n_dof, seed);
-    for (int64_t i = 0; i < s->n_dof; i++)
-        x[i] = is_velocity(s, i) ? x[i] : 0;
-    return x;
-}
 
 /* Power of the convective force at a random velocity, relative to what adds up to it. */
 static double power(const char *shape, const char *skew)
@@ -102,25 +52,6 @@ static void skew_convection_has_no_power_in_a_periodic_box(void **state)
         if (!(with < 1e-13 && without > 1e-4))
             fail_msg("%s: power %g with the term, %g without", shapes[i], with, without);
     }
-}
-
-/* y . J z over velocities; the matrix is assembled. */
-static double product(const opened *k, const double *y, const double *z)
-{
-    const space *s = &k->p.space;
-    double sum = 0;
-
-    for (int64_t i = 0; i < s->n_free; i++)
-        for (int64_t e = s->row[i]; e < s->row[i + 1]; e++)
-            if (is_velocity(s, s->dof_of[i]) && is_velocity(s, s->dof_of[s->col[e]]))
-                sum += y[s->dof_of[i]] * k->p.system.linear.value[e] * z[s->dof_of[s->col[e]]];
-    return sum;
-}
-
-static void set_uniform(const space *s, const double *u, double *x)
-{
-    for (int64_t i = 0; i < s->n_dof; i++)
-        x[i] = is_velocity(s, i) ? u[s->dof_comp[i]] : 0;
 }
 
 /* About a uniform flow the coefficient is one number in all cells of a size: a(y, y) = c int (div y)^2, and y = (3

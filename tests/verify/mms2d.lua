@@ -6,6 +6,7 @@ local shape = param("shape", "quads", "quads or triangles")
 local curved = param("curved", false, "bend the cells")
 local mu = param("viscosity", 0.7, "of the fluid")
 local stabilise = param("stabilise", false, "with the terms of stabilise")
+local streamline = param("streamline", 0, "strength of stabilise.streamline; 0: off")
 local rho = 1.3
 local sin, cos, pi = math.sin, math.cos, math.pi
 
@@ -33,5 +34,6 @@ fluid { density = rho, viscosity = mu }
 term "continuity" {}
 term "momentum" { force = force }
 if stabilise then term "stabilise" {} end
+if streamline > 0 then term "stabilise.streamline" { streamline = streamline, force = force } end
 boundary "*" { u = velocity }
 exact { u = velocity, p = pressure }

@@ -12,6 +12,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static double error_of(const char *arguments, const char *keys)
 {
@@ -60,6 +61,10 @@ static void the_matrix_is_the_derivative(void **state)
     assert_ran(plugflow("jacobian tests/verify/unresolved_vortices.lua --set n=3"), 0, "ok     d R_u / d u");
     assert_ran(plugflow("jacobian tests/verify/mms2d.lua --set n=3 --set stabilise=true --set viscosity=1e-3"), 0,
                "ok     d R_u / d u");
+    assert_ran(plugflow("jacobian tests/verify/unresolved_vortices.lua --set n=3 --set streamline=1"), 0,
+               "ok     d R_u / d u", "ok     d R_u / d p");
+    assert_ran(plugflow("jacobian tests/verify/mms2d.lua --set n=3 --set streamline=1 --set viscosity=1e-3"), 0,
+               "ok     d R_u / d u", "ok     d R_u / d p");
 }
 
 /* A stream with a body in it, left to itself, at cell Reynolds numbers up to 1000: its energy falls in every step.
@@ -115,6 +120,34 @@ static void small_viscosity_costs_one_order_at_most(void **state)
     assert_ran(plugflow("run tests/verify/%s16 --quiet --out %s/o", small, scratch()), 6, NULL);
 }
 
+/* It keeps what is resolved, and where viscosity is too small for the mesh the error is smaller than without. */
+static void streamline_makes_no_error_larger(void **state)
+{
+    static const struct {
+        const char *viscosity, *shape;
+        int n;
+        double least, most;
+    } run[] = {{"1", "quads", 16, 0.999, 1.001},  {"1e-2", "quads", 16, 0.9, 1},
+               {"1e-4", "quads", 16, 0.85, 0.97}, {"1e-4", "triangles", 16, 0.6, 0.9},
+               {"1e-6", "quads", 32, 0.7, 0.9},   {"1e-4", "quads", 32, 0.7, 0.9}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof run / sizeof *run; k++) {
+        char arguments[200];
+        double off, on;
+
+        snprintf(arguments, sizeof arguments,
+                 "mms2d.lua --set stabilise=true --set viscosity=%s --set shape=%s --set n=%d", run[k].viscosity,
+                 run[k].shape, run[k].n);
+        off = error_of(arguments, "errors.u.l2");
+        strcat(arguments, " --set streamline=0.01");
+        on = error_of(arguments, "errors.u.l2");
+        print_message("# viscosity %s, %s, n = %d: %.3g without, %.3g with\n", run[k].viscosity, run[k].shape,
+                      run[k].n, off, on);
+        assert_between(on / off, run[k].least, run[k].most);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -124,6 +157,7 @@ int main(void)
         cmocka_unit_test(the_matrix_is_the_derivative),
         cmocka_unit_test(resolved_flow_stays_what_it_was),
         cmocka_unit_test(small_viscosity_costs_one_order_at_most),
+        cmocka_unit_test(streamline_makes_no_error_larger),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

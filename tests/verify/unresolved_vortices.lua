@@ -6,6 +6,7 @@ local n = param("n", 8, "cells in each direction")
 local reynolds = param("cell_reynolds", 1000, "U h/nu")
 local stop = param("stop", 8, "end")
 local stabilise = param("stabilise", true, "with the terms of stabilise")
+local streamline = param("streamline", 0, "strength of stabilise.streamline; 0: off")
 local shape = param("shape", "quads", "quads or triangles")
 local sin, cos, pi = math.sin, math.cos, math.pi
 
@@ -15,6 +16,7 @@ fluid { density = 1, viscosity = 2 * pi / n / reynolds }
 term "continuity" {}
 term "momentum" {}
 if stabilise then term "stabilise" {} end
+if streamline > 0 then term "stabilise.streamline" { streamline = streamline } end
 
 boundary { periodic = {"left", "right"} }
 boundary { periodic = {"bottom", "top"} }
