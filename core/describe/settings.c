@@ -63,6 +63,10 @@ static int read_stop(description *d, reader *r)
     if (reader_type(r, "stop") != LUA_TSTRING) {
         status = reader_number(r, "stop", "time at which the run ends, s; or \"steady\"", -1e300, 1e300, &t->stop);
         reader_required(r, "stop", status);
+        for (int i = 0; i < 2; i++)
+            if (reader_note(r, i ? "steady" : "at_most", "with stop = \"steady\""))
+                case_wrong(d->c, r->b, i ? "steady" : "at_most", "time: \"%s\" goes with stop = \"steady\" only",
+                           i ? "steady" : "at_most");
         return status > 0;
     }
     t->steady = 1e-4;
@@ -94,8 +98,10 @@ static void read_time(description *d)
     t->order = order + 1;
     tolerance = reader_number(&r, "tolerance", "error of velocities that steps choose their length by, relative",
                               1e-8, 0.5, &t->tolerance);
-    step = reader_number(&r, "step", "length of a time step (with a tolerance: of the first), s", 1e-300, 1e300,
-                         &t->step);
+    step = reader_number(&r, "step",
+                         "length of a time step, s; with tolerance = 1e-3, or another, steps choose their length, "
+                         "and this is the first",
+                         1e-300, 1e300, &t->step);
     stop = read_stop(d, &r);
     start = reader_number(&r, "start", "time at which the run starts, s", -1e300, 1e300, &t->start);
     reader_integer(&r, "geometry_iterations",

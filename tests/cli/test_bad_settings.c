@@ -42,6 +42,29 @@ static void names_of_other_codes_are_understood(void **state)
     assert_bad_cases(list);
 }
 
+static void steps_that_choose_their_length_have_a_tolerance_and_an_end(void **state)
+{
+    static const bad_case list[] = {
+        {"9 time { tolerance = 1e-3, stop = 1 }", 0, {"bad.lua: ok"}},
+        {"9 time { tolerance = 1e-3, stop = \"steady\", at_most = 5 }", 0, {"bad.lua: ok"}},
+        {"9 time { stop = 1 }", 3, {"with tolerance = 1e-3, or another, steps choose their length"}},
+        {"9 time { tol = 1e-3, stop = 1 }", 3, {"unknown key \"tol\"; did you mean \"tolerance\""}},
+        {"9 time { tolerance = 2, stop = 1 }", 3, {"is 2; it must lie between 1e-08 and 0.5"}},
+        {"9 time { tolerance = 1e-3, stop = 1, scheme = \"bdf1\" }", 3, {"with scheme = \"bdf2\" only"}},
+        {"9 time { tolerance = 1e-3, stop = 1, step = 2 }", 3, {"step = 2 is longer than the whole run"}},
+        {"9 time { tolerance = 1e-3, stop = \"stedy\", at_most = 3 }", 3, {"did you mean \"steady\"?"}},
+        {"9 time { tolerance = 1e-3, stop = \"steady\" }", 3, {"\"at_most\" is missing"}},
+        {"9 time { tolerance = 1e-3, stop = 1, at_most = 3 }", 3, {"\"at_most\" goes with stop = \"steady\" only"}},
+        {"9 time { step = 0.1, stop = 1, steady = 1e-3 }", 3, {"\"steady\" goes with stop = \"steady\" only"}},
+        {"9 time { tolerance = 1e-3, stop = 1 }\n10 output { tables_every = 1e-12 }", 3, {"would make 1e+12 rows"}},
+        {"9 time { tolerance = 1e-3, stop = 1 }\n10 output { every = 1e-12 }", 3, {"would make 1e+12 files"}},
+        {"9 time { tolerance = 1e-3, stop = 1 }\n10 output { tables_every = -1 }", 3, {"it must be positive"}},
+    };
+
+    (void)state;
+    assert_bad_cases(list);
+}
+
 static void a_time_that_cannot_be_is_refused(void **state)
 {
     static const bad_case list[] = {
@@ -256,6 +279,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_of_other_codes_are_understood),
         cmocka_unit_test(a_time_that_cannot_be_is_refused),
+        cmocka_unit_test(steps_that_choose_their_length_have_a_tolerance_and_an_end),
         cmocka_unit_test(numbers_of_the_fluid_have_a_meaning),
         cmocka_unit_test(a_term_line_lists_what_there_is),
         cmocka_unit_test(a_mesh_that_cannot_be_is_refused),
