@@ -9,7 +9,7 @@ local n = param("n", 16, "cells per cm")
 local tolerance = param("tolerance", 1e-2, "of steps that choose their length")
 local dt = param("dt", 0, "length of all steps instead, s")
 local stop = param("stop", 0.4, "end, s")
-local stabilise = param("stabilise", false, "terms against convection that the mesh does not resolve")
+local stabilise = param("stabilise", true, "terms against convection that the mesh does not resolve")
 local formulation = param("formulation", "sharp", "sharp or conservative")
 local d, rho, mu = 0.25, 1.5, 0.01
 

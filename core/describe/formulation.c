@@ -26,7 +26,6 @@ static const formulation formulations[] = {
     {"sharp",
      "surface",
      {{"surface.nitsche", NULL},
-      {"surface.inflow", NULL},
       {"surface.extension", NULL},
       {"rigid_body.translation", "U"},
       {"rigid_body.rotation", "omega"},

@@ -134,7 +134,7 @@ static void a_falling_body_keeps_the_balance(void **state)
     (void)state;
     assert_ran(plugflow("run %s --set n=8 --set stop=0.1 --out %s/o", strict("cases/falling_disk.lua"), scratch()),
                0, NULL);
-    terms = work("momentum.stress") + work("surface.nitsche") + work("surface.extension");
+    terms = work("momentum.stress") + work("surface.nitsche") + work("surface.inflow") + work("surface.extension");
     assert_between(energy("kinetic_start"), 0, 0);
     snprintf(path, sizeof path, "%s/o/particles.csv", scratch());
     n = csv_column(path, "y", &y);
