@@ -105,7 +105,7 @@ typedef struct body_paths {
     int n;
     moving_body *body; /* [n_body * n_image] */
     uint8_t *cell;     /* [n_cell] near one that moves */
-    uint8_t *seen; /* [n_carrier] of the last extrapolation: 1 a node near a body that moves, 2 on a path */
+    uint8_t *seen; /* [n_carrier] room             */
 } body_paths;
 
 typedef struct bodies {

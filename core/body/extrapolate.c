@@ -5,15 +5,15 @@
 
 #include <string.h>
 
-/* Of one node; returns whether a path led to it. */
-static int extrapolate_node(bodies *b, int64_t cell, int32_t node, int32_t carrier, double *x)
+/* Of one node. */
+static void extrapolate_node(bodies *b, int64_t cell, int32_t node, int32_t carrier, double *x)
 {
     const space *s = b->space;
     double at[3] = {0}, w[3], value[SPACE_MAX_FIELDS * VALUE_MAX], *v = value;
 
     memcpy(at, s->mesh->x + (int64_t)node * s->mesh->dim, (size_t)s->mesh->dim * sizeof *at);
     if (!paths_at(b, cell, at, w, value))
-        return 0;
+        return;
     for (int f = 0; f < s->n_field; f++) {
         int64_t d = s->first[f][carrier];
 
@@ -23,7 +23,6 @@ static int extrapolate_node(bodies *b, int64_t cell, int32_t node, int32_t carri
             x[d + a] = v[a];
         v += s->field[f].n_comp;
     }
-    return 1;
 }
 
 void bodies_extrapolate(bodies *b, const placement *now, int levels, const double *c, const double *const *u,
@@ -40,6 +39,7 @@ void bodies_extrapolate(bodies *b, const placement *now, int levels, const doubl
             int32_t node = m->cell[k * m->type->n_node + i], carrier = space_master(b->space, node);
 
             if (!t->seen[carrier])
-                t->seen[carrier] = extrapolate_node(b, k, node, carrier, x) ? 2 : 1;
+                extrapolate_node(b, k, node, carrier, x);
+            t->seen[carrier] = 1;
         }
 }

@@ -71,7 +71,7 @@ typedef struct time_spec {
     int geometry_iterations; /* how often bodies are placed anew in a step */
     double step, start, stop; /* with a tolerance step is the first one, 0: to be chosen */
     double tolerance;         /* of steps that choose their length; 0: all are of length step */
-    double steady;            /* > 0: the run ends when the flow changes by less, see run/steady.c */
+    double steady;            /* > 0: the run ends when the flow changes by less, see run/march.c */
 } time_spec;
 
 typedef struct probe_spec {

@@ -43,12 +43,14 @@ static void check_time(description *d, const case_block *b, const time_spec *t)
 {
     const double length = t->stop - t->start;
 
+    const char *end = t->steady > 0 ? "at_most" : "stop";
+
     if (!(length > 0))
-        case_wrong(d->c, b, "stop", "time: stop = %g is not after start = %g", t->stop, t->start);
+        case_wrong(d->c, b, end, "time: %s = %g is not after start = %g", end, t->stop, t->start);
     else if (t->step > length * (1 + 1e-9))
-        case_wrong(d->c, b, "step", "time: step = %g is longer than the whole run, from start = %g to stop = %g",
-                   t->step, t->start, t->stop);
-    else if (t->step > 0 && length / t->step > 1e9)
+        case_wrong(d->c, b, "step", "time: step = %g is longer than the whole run, from start = %g to %s = %g",
+                   t->step, t->start, end, t->stop);
+    else if (t->tolerance == 0 && length / t->step > 1e9)
         case_wrong(d->c, b, "step", "time: %.3g steps are too many; is the step (%g) right?", length / t->step,
                    t->step);
 }
@@ -70,9 +72,9 @@ static int read_stop(description *d, reader *r)
         return status > 0;
     }
     t->steady = 1e-4;
-    reader_choice(r, "stop", "when the run ends", word, &which);
-    reader_number(r, "steady", "relative change of the flow within the time gone by at which it is steady", 1e-14,
-                  1, &t->steady);
+    reader_choice(r, "stop", "a number of seconds, without quotes, or", word, &which);
+    reader_number(r, "steady", "relative change of the flow, within the time up to at_most, that is none", 1e-14, 1,
+                  &t->steady);
     status = reader_number(r, "at_most", "time at which the run ends if the flow is not steady by then, s", -1e300,
                            1e300, &t->stop);
     reader_required(r, "at_most", status);

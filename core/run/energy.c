@@ -234,7 +234,7 @@ int energy_step(run *r, error *err)
         return 0;
     e->now = kinetic(r);
     memcpy(e->work, e->meter.work, (size_t)(e->meter.n_use + 1) * sizeof *e->work);
-    if (r->result->steps == 1 &&
+    if (r->p->state.n_history == 1 &&
         r->stepper->order == 2) /* that step's solution is extrapolated from the one read */
         TRY(take_kinetic(r, err));
     e->largest = fmax(e->largest, e->now);
@@ -343,11 +343,10 @@ void energy_say(const run *r)
 
     if (e->known)
         text_add(&t,
-                 "  kinetic energy %.4g J at the start, %.4g at the end: %.4g put in, %.4g dissipated, %.4g "
-                 "carried out, "
+                 "  kinetic energy %.4g J at the start, %.4g at the end: %.4g put in, %.4g %s, %.4g carried out, "
                  "%.2g made by the scheme (%.2g %% of the largest)%s",
-                 e->start, e->now, b.in, b.dissipated, b.out, made(&b),
-                 e->largest > 0 ? 100 * made(&b) / e->largest : 0, e->reynolds > 0 ? "; " : "");
+                 e->start, e->now, b.in, fabs(b.dissipated), b.dissipated < 0 ? "given by the terms" : "dissipated",
+                 b.out, made(&b), e->largest > 0 ? 100 * made(&b) / e->largest : 0, e->reynolds > 0 ? "; " : "");
     if (e->reynolds > 0)
         text_add(&t, "%slargest cell Reynolds number %.3g at %s", e->known ? "" : "  ", e->reynolds,
                  text_point(e->at, r->p->mesh.dim).s);

@@ -10,6 +10,9 @@
 /* Part of a step of given length below which none is made: the one before or after is longer or shorter by it. */
 #define NEAR 0.01
 
+/* Part of the shortest of what is due below which two dates are the same. */
+#define SAME 1e-3
+
 /* What is written at multiples of a time. */
 typedef struct due {
     double start, every, slack; /* every = 0: after each step */
@@ -80,20 +83,28 @@ static int one_step(run *r, double next, error *err)
     return take_step(r, iterations, err);
 }
 
-/* Whether the flow has become steady: within the time gone by it would change, at the rate of the last step, by
- * less than a small part of itself. */
+/* Whether the flow has become steady: within the whole time that the run may take it would change, at the rate of
+ * the last step, by less than a small part of its largest size.  A flow that has been at rest so far is not:
+ * something may start it. */
 static int is_steady(run *r)
 {
-    const problem *p = r->p;
+    problem *p = r->p;
     const state *s = &p->state;
-    double size[SPACE_MAX_FIELDS] = {0}, gone = s->t - p->description.time.start;
+    const time_spec *time = &p->description.time;
+    step_measure m = r->stepper->measure;
+    double motion = 0;
 
-    if (p->description.time.steady == 0 || s->n_history < 3)
+    if (time->steady == 0 || s->n_history < 3)
         return 0;
-    r->result->change = gone / s->dt_previous *
-                        measure_relative(&r->stepper->measure, s->x, s->before, NULL,
-                                         p->bodies.n ? p->bodies.now->idle : NULL, size, NULL);
-    r->result->steady = r->result->change <= p->description.time.steady;
+    measure_place(&r->stepper->measure);
+    if (m.rated == 0) /* no equation has a rate: all fields are looked at */
+        m.rated = ~0u;
+    r->result->change = (time->stop - time->start) / s->dt_previous *
+                        measure_relative(&m, s->x, s->before, NULL, p->bodies.n ? p->bodies.now->idle : NULL, 1,
+                                         r->largest, &motion);
+    for (int f = 0; f < p->space.n_field; f++)
+        motion = fmax(motion, r->largest[f]);
+    r->result->steady = motion > 1e-300 && r->result->change <= time->steady;
     return r->result->steady;
 }
 
@@ -117,16 +128,16 @@ static int write_rows(run *r, error *err)
 
 /* End of the next step: of the grid of steps of given length, or what is due before; of steps that choose their
  * length what is due next. *k: number of the next step of the grid. */
-static double next_stop(const time_spec *t, double files, double tables, long n, long *k)
+static double next_stop(const time_spec *t, double files, double tables, double slack, long n, long *k)
 {
     const double first = fmin(files, tables);
     double grid, near;
 
     if (t->tolerance > 0)
-        return first < t->stop - 1e-9 * (t->stop - t->start) ? first : t->stop;
+        return first < t->stop - slack ? first : t->stop;
     grid = *k >= n ? t->stop : t->start + (double)*k * t->step;
     near = *k < n ? NEAR * t->step : 0;
-    if (first < grid + near && fabs(first - grid) > 1e-9 * t->step) {
+    if (first < grid + near && fabs(first - grid) > slack) {
         *k += first >= grid - near;
         return first;
     }
@@ -153,12 +164,24 @@ static int begin(run *r, error *err)
     return output_fields(r, r->p->description.time.start, err);
 }
 
+/* Dates that are nearer to each other are one: no step is made from the one to the other. */
+static double same_time(const time_spec *t, const output_spec *o)
+{
+    double shortest = fmin(o->every, t->stop - t->start);
+
+    if (o->tables_every > 0)
+        shortest = fmin(shortest, o->tables_every);
+    if (t->tolerance == 0)
+        shortest = fmin(shortest, t->step);
+    return SAME * shortest;
+}
+
 int march(run *r, const volatile sig_atomic_t *stop, error *err)
 {
     problem *p = r->p;
     const time_spec *time = &p->description.time;
     const output_spec *o = &p->description.output;
-    const double slack = 1e-9 * (time->tolerance > 0 ? fmin(o->every, time->stop - time->start) : time->step);
+    const double slack = same_time(time, o);
     const long n = time->tolerance > 0 ? 0 : lround(ceil((time->stop - time->start) / time->step * (1 - 1e-12)));
     due files = {time->start, o->every, slack, 1}, tables = {time->start, o->tables_every, slack, 1};
     long k = 1;
@@ -166,14 +189,14 @@ int march(run *r, const volatile sig_atomic_t *stop, error *err)
 
     TRY(begin(r, err));
     while (!last) {
-        double next = next_stop(time, due_at(&files), due_at(&tables), n, &k);
+        double next = next_stop(time, due_at(&files), due_at(&tables), slack, n, &k);
         int status = one_step(r, next, err);
         error ignored;
 
         if (status && r->taken > p->state.written) /* the last good state goes to disk */
             output_fields(r, r->taken, &ignored);
         TRY(status);
-        last = p->state.t >= time->stop || is_steady(r);
+        last = is_steady(r) || p->state.t >= time->stop;
         if (stop && *stop) {
             r->result->status = "interrupted";
             last = 1;

@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Part of a run below which no step is short enough. */
-#define LEAST 1e-10
+/* Part of the time itself below which a step is too short to be told from none. */
+#define LEAST 1e-14
 
 static void say(const run *r, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 static void say(const run *r, const char *fmt, ...)
@@ -168,7 +168,7 @@ static int prepare(run *r, error *err)
     r->stepper->geometry_iterations = p->description.time.geometry_iterations;
     if (p->description.time.tolerance > 0)
         stepper_adapt(r->stepper, p->description.time.tolerance, p->description.time.step,
-                      LEAST * (p->description.time.stop - p->description.time.start));
+                      LEAST * (fabs(p->description.time.stop) + fabs(p->description.time.start)));
     memcpy(r->x, p->state.x, (size_t)p->space.n_dof * sizeof *r->x);
     TRY(energy_open(r, err));
     TRY(norms_check(p, err));

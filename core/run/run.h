@@ -58,9 +58,10 @@ typedef struct run {
     const char *dir;
     const run_talk *talk;
     run_result *result;
-    int before_steps; /* rows are of the start: there are no reactions yet */
-    double *x;    /* [n_dof] the solution, free fields with zero mean */
-    double taken; /* its time: of the last step of the run, s */
+    double largest[SPACE_MAX_FIELDS]; /* size of each field so far, for is_steady */
+    int before_steps;                 /* rows are of the start: there are no reactions yet */
+    double *x;                        /* [n_dof] the solution, free fields with zero mean */
+    double taken;                     /* its time: of the last step of the run, s */
     table forces, probes, particles;
     double *body_row;  /* room for a row of particles.csv, and a count a body */
     float *node_share; /* [n_node] */

@@ -97,6 +97,7 @@ static int polish(iterate *it, double *change, error *err)
         *change = own;
     if (!status && scale_norms(s, it->scale, norm) < before) {
         memcpy(it->report->norm, norm, sizeof norm);
+        it->matrix = it->matrix == MATRIX_HERE ? MATRIX_OLD : it->matrix;
         return 0;
     }
     memcpy(it->x, s->trial, bytes);
@@ -135,7 +136,7 @@ static int settle(iterate *it, int k, error *err)
     r->converged = change <= LAST_STEP || r->history[k] <= ROUND_OFF;
     if (it->near > it->enough) { /* of the prediction nothing has been solved yet */
         r->history[k] = largest(s->space->n_field, r->norm);
-        r->converged = r->converged || (k > 0 && r->history[k] <= it->enough);
+        r->converged = r->history[k] <= ROUND_OFF || (k > 0 && r->history[k] <= it->enough);
     }
     return 0;
 }

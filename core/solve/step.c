@@ -237,11 +237,12 @@ static int start(stepper *p, const state *from, double dt, int *converged, error
 
 /* Error of the step in the first trial state.  That of the first step is guessed from what Richardson's
  * extrapolation took out, that of the second from what a straight line misses. */
-static step_error error_of(const stepper *p, const state *from, int started, double dt, double *size)
+static step_error error_of(stepper *p, const state *from, int started, double dt, double *size)
 {
     const uint8_t *idle = p->bodies->n ? p->bodies->now->idle : NULL;
     const double *x = p->trial[0].x;
 
+    measure_place(&p->measure);
     if (started)
         return measure_first(&p->measure, from, p->tolerance, dt, x, p->trial[2].x, idle, size);
     if (from->n_history == 1)

@@ -11,6 +11,9 @@
 #define SHRINK   0.3
 #define BAND_LOW 0.8 /* a change between these is none */
 #define BAND_TOP 1.25
+/* After an error that was too large so many steps grow by no more than this. */
+enum { CAREFUL = 3 };
+#define CAREFUL_GROWTH 1.25
 
 void control_extrapolate(double dt, double dt_previous, double dt_before, double *c)
 {
@@ -35,19 +38,25 @@ double control_milne(double dt, double dt_previous, double dt_before)
     return 1 / (1 + c0 * (dt + dt_previous + dt_before));
 }
 
-void control_accept(step_control *c, double error, double dt, int repeated)
+void control_accept(step_control *c, double error, double dt, enum repeated repeated)
 {
-    double e = fmax(error, 1e-9), f = pow(AIM / e, 1.0 / 3);
+    const int cut = dt < 0.9 * c->next && repeated == NOT_REPEATED;
+    double e = fmax(error, 1e-9), f = pow(AIM / e, 1.0 / 3), most = GROWTH;
 
     if (c->before > 0 && e > c->before) /* it grows: the next one's will, too */
         f *= pow(c->before / e, 0.4 / 3);
-
-    f = fmin(fmax(f, SHRINK), repeated ? 1 : GROWTH);
-    if (f > BAND_LOW && f < BAND_TOP)
+    if (repeated == REPEATED_ERROR)
+        c->careful = CAREFUL;
+    if (c->careful > 0) {
+        most = CAREFUL_GROWTH;
+        c->careful--;
+    }
+    f = fmin(fmax(f, SHRINK), repeated ? 1 : most);
+    if (f > BAND_LOW && f < fmin(BAND_TOP, most))
         f = 1;
     /* a step that was cut to land somewhere says nothing against the length that was meant */
-    c->next = error <= 1 && dt < 0.9 * c->next && !repeated ? fmax(c->next, f * dt) : f * dt;
-    c->before = e;
+    c->next = error <= 1 && cut ? fmax(c->next, f * dt) : f * dt;
+    c->before = cut ? 0 : e;
 }
 
 double control_shorten(double error, double dt)

@@ -14,8 +14,11 @@ double control_defect(double dt, double dt_previous);
 /* Coefficients of that extrapolation. */
 void control_extrapolate(double dt, double dt_previous, double dt_before, double *c);
 
-/* A step was made with this error (over what is allowed): sets the next one's length. */
-void control_accept(step_control *c, double error, double dt, int repeated);
+enum repeated { NOT_REPEATED, REPEATED, REPEATED_ERROR };
+
+/* A step was made with this error (over what is allowed), after tries that failed, or failed by their error: sets
+ * the next one's length. */
+void control_accept(step_control *c, double error, double dt, enum repeated repeated);
 /* Length for another try after one of dt with too large an error. */
 double control_shorten(double error, double dt);
 /* Length of a step from t, so that one ends at `until` without a last small one. */

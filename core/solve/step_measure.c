@@ -3,11 +3,12 @@
  * The error of a step, by Milne's device: what the solution differs by from an extrapolation of the same order,
  * times a known factor (Gresho and Sani 1998, 3.16).
  *
+ * Nodes of cells that a body may cut are not measured: the values of those below its surface, or of cells tied to
+ * others, belong to the approximation and depend on the step itself.
+ *
  * A body that moves through the mesh feels it: its velocity has a roughness of the size of the error of space,
- * which no shorter step makes smaller, and fluid close to it changes wherever cells are cut otherwise.  So where
- * bodies move Milne's error may be a few times the tolerance, and what is held to the tolerance is the error of the
- * bodies' velocities smoothed over the last steps.  Fluid on the paths that follow bodies (paths.c) is not
- * measured: it goes with them. */
+ * which no shorter step makes smaller.  So Milne's error of bodies may be a few times what that of the fluid may,
+ * and beside it the error of their velocities smoothed over the last steps is held to it. */
 #include "solve/step_measure.h"
 
 #include "solve/step_control.h"
@@ -16,12 +17,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Milne's error where bodies move, over the tolerance: what is larger is sudden. */
+/* Milne's error of bodies, over what is allowed: what is larger is sudden. */
 #define ROUGH 5
 /* Instants from which on a smooth course is known. */
 enum { LEAST_PAST = 6 };
 
-int measure_create(step_measure *m, const bodies *b, arena *memory, error *err)
+int measure_create(step_measure *m, const bodies *b, const int *vanishes, arena *memory, error *err)
 {
     const space *s = b->space;
     const mesh *q = s->mesh;
@@ -29,13 +30,17 @@ int measure_create(step_measure *m, const bodies *b, arena *memory, error *err)
 
     m->space = s;
     m->bodies = b;
-    for (int k = 0; k < b->n; k++)
+    m->vanishes = vanishes;
+    for (int k = 0; k < b->n; k++) {
         m->moves |= b->spec[k].motion != BODY_FIXED;
+        m->free |= b->spec[k].motion == BODY_FREE;
+    }
     for (int i = 0; i < d->n_use; i++)
         for (uint32_t k = 0; k < d->use[i].term->n_in; k++)
             if (d->use[i].term->in[k].eval == PF_DOT)
                 m->rated |= 1u << space_find_field(s, d->use[i].term->in[k].field);
     ARENA_NEW(memory, m->weight, s->n_carrier, err);
+    ARENA_NEW(memory, m->cut, s->n_carrier, err);
     for (int64_t c = 0; c < q->n_cell; c++)
         for (int i = 0; i < q->type->n_node; i++)
             m->weight[space_master(s, q->cell[c * q->type->n_node + i])] += pow(q->h[c], q->dim);
@@ -53,18 +58,31 @@ void measure_motion(const step_measure *m, int k, const double *x, double *v)
     }
 }
 
+void measure_place(step_measure *m)
+{
+    const placement *now = m->bodies->now;
+    const mesh *q = m->space->mesh;
+
+    if (m->bodies->n == 0 || m->stamp == m->bodies->stamp)
+        return;
+    m->stamp = m->bodies->stamp;
+    memset(m->cut, 0, (size_t)m->space->n_carrier);
+    for (int64_t k = 0; k < now->n_near; k++)
+        for (int i = 0; i < q->type->n_node; i++)
+            m->cut[space_master(m->space, q->cell[(int64_t)now->near_cell[k] * q->type->n_node + i])] = 1;
+}
+
 /* Squares of a field of the mesh and of its error, weighted. */
 static void add_squares(const step_measure *m, int f, const double *x, const double *from, const uint8_t *idle,
                         double *error, double *size)
 {
     const space *s = m->space;
-    const uint8_t *seen = m->bodies->n ? m->bodies->paths.seen : NULL;
     double volume = 0, e = 0, v = 0;
 
     for (int64_t c = 0; c < s->mesh->n_node; c++) {
         int64_t d = s->first[f][c];
 
-        if (d < 0 || (idle && idle[d]) || (seen && seen[c] == 2))
+        if (d < 0 || (idle && idle[d]) || m->cut[c])
             continue;
         volume += m->weight[c];
         for (int64_t i = d; i < d + s->field[f].n_comp; i++) {
@@ -114,14 +132,14 @@ static void add_field(const step_measure *m, int f, const double *x, const doubl
 }
 
 double measure_relative(const step_measure *m, const double *x, const double *from, const double *least,
-                        const uint8_t *idle, double *size, double *motion)
+                        const uint8_t *idle, double rough, double *size, double *motion)
 {
     double error[SPACE_MAX_FIELDS] = {0}, most = 0, worst = 0;
 
     for (int f = 0; f < m->space->n_field; f++) {
         double now;
 
-        if (!(m->rated >> f & 1))
+        if (!(m->rated >> f & 1) && !is_motion(m, f))
             continue;
         add_field(m, f, x, from, idle, &error[f], &now);
         size[f] = fmax(size[f], now);
@@ -131,7 +149,9 @@ double measure_relative(const step_measure *m, const double *x, const double *fr
     for (int f = 0; f < m->space->n_field; f++) {
         double of = is_motion(m, f) && m->space->field[f].support == PF_ON_PARTICLE ? most : size[f];
 
-        if (error[f] > 0)
+        if (m->space->field[f].support == PF_ON_PARTICLE)
+            error[f] /= rough;
+        if (error[f] > 0 && (m->rated >> f & 1) && !m->vanishes[f])
             worst = fmax(worst, error[f] / fmax(fmax(of, least ? least[f] : 0), DBL_MIN));
     }
     if (motion)
@@ -249,9 +269,9 @@ void measure_remember(const step_measure *m, state *now)
     }
 }
 
-double measure_allowed(const step_measure *m, double tolerance)
+static double measure_allowed(const step_measure *m, double tolerance)
 {
-    return m->moves ? tolerance : pow(tolerance, 1.5);
+    return m->free ? tolerance : pow(tolerance, 1.5);
 }
 
 step_error measure_first(const step_measure *m, const state *now, double tolerance, double dt, const double *x,
@@ -261,7 +281,7 @@ step_error measure_first(const step_measure *m, const state *now, double toleran
     step_error e;
 
     growth(m, now, dt, x, idle, 1 / sqrt(tolerance), least);
-    e.whole = pow(measure_relative(m, x, from, least, idle, size, NULL), 1.5);
+    e.whole = pow(measure_relative(m, x, from, least, idle, 1, size, NULL), 1.5);
     e.error = e.whole / measure_allowed(m, tolerance);
     return e;
 }
@@ -274,9 +294,9 @@ step_error measure_step(const step_measure *m, const state *now, double toleranc
 
     growth(m, now, dt, x, idle, 1 / sqrt(tolerance), least);
     e.whole = control_milne(dt, now->dt_previous, now->dt_before) *
-              measure_relative(m, x, predicted, least, idle, size, &largest);
-    e.error = e.whole / (m->moves ? ROUGH * tolerance : measure_allowed(m, tolerance));
-    if (m->moves)
+              measure_relative(m, x, predicted, least, idle, ROUGH, size, &largest);
+    e.error = e.whole / measure_allowed(m, tolerance);
+    if (m->free)
         e.error = fmax(e.error, control_defect(dt, now->dt_previous) * body_jerk(m, now, now->t + dt, x) / largest /
                                     measure_allowed(m, tolerance));
     return e;

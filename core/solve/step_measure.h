@@ -15,25 +15,28 @@
 typedef struct step_measure {
     const space *space;
     const bodies *bodies;
-    int moves;      /* some body does */
-    uint32_t rated; /* bit f: some term has du/dt of field f */
-    double *weight; /* [n_carrier] size of the cells at a node of the mesh */
+    int moves, free;     /* some body does; by itself */
+    uint32_t rated;      /* bit f: some term has du/dt of field f */
+    const int *vanishes; /* [n_field] the field is zero but for round-off: it does not count */
+    double *weight;      /* [n_carrier] size of the cells at a node of the mesh */
+    uint8_t *cut;        /* [n_carrier] 1: a body may cut a cell at the node    */
+    int stamp;           /* of the placement that this is of                    */
 } step_measure;
 
 typedef struct step_error {
-    double error; /* over what is allowed; negative: not known yet */
-    double whole; /* Milne's, over the size of the fields          */
+    double error; /* over what is allowed                 */
+    double whole; /* Milne's, over the size of the fields */
 } step_error;
 
-int measure_create(step_measure *m, const bodies *b, arena *memory, error *err);
+int measure_create(step_measure *m, const bodies *b, const int *vanishes, arena *memory, error *err);
+/* Finds the nodes near bodies, as they are placed now. */
+void measure_place(step_measure *m);
 /* Largest difference x - from [n_dof] of a field with du/dt, over its size.  A field of the mesh is measured by its
  * mean square over the nodes that are not off (idle, or NULL), one of bodies, in units of velocity, by its largest
- * value.  size: of each field now, at least what it was; least (or NULL): what it is taken for at least; motion (or
- * NULL): largest size of a velocity. */
+ * value.  size: of each field now, at least what it was; least (or NULL): what it is taken for at least; a
+ * difference of bodies counts for 1/rough of itself; motion (or NULL): largest size of a velocity. */
 double measure_relative(const step_measure *m, const double *x, const double *from, const double *least,
-                        const uint8_t *idle, double *size, double *motion);
-/* Relative error that a step may have. */
-double measure_allowed(const step_measure *m, double tolerance);
+                        const uint8_t *idle, double rough, double *size, double *motion);
 /* Error of a step of BDF2 of length dt from a state with two steps behind it to x. */
 step_error measure_step(const step_measure *m, const state *now, double tolerance, double dt, const double *x,
                         const double *predicted, const uint8_t *idle, double *size);

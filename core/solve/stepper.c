@@ -33,7 +33,7 @@ int stepper_create(stepper *p, newton_system *s, bodies *b, const conditions *c,
         ARENA_NEW(&p->memory, p->reaction[i], n, err);
         ARENA_NEW(&p->memory, p->saved[i], n, err);
     }
-    return measure_create(&p->measure, b, &p->memory, err);
+    return measure_create(&p->measure, b, s->vanishes, &p->memory, err);
 }
 
 void stepper_destroy(stepper *p)
@@ -149,7 +149,7 @@ static int creeps(const stepper *p, double dt)
         measure_motion(&p->measure, k, p->trial[0].x, v);
         most = fmax(most, sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     }
-    return most > 0 && most * dt < CREEPS * p->bodies->h_mean;
+    return p->measure.free && most > 0 && most * dt < CREEPS * p->bodies->h_mean;
 }
 
 /* Whether the try with this error is accepted; else *dt is another length. */
@@ -161,7 +161,8 @@ static int judge(stepper *p, tries *t, const step_error *e, double *dt)
         return 1;
     t->flat = t->error > 0 && e->error > t->error * pow(*dt / t->dt, FLAT) ? t->flat + 1 : 0;
     if ((t->flat || creeps(p, *dt)) && e->whole < JUMP * p->tolerance) {
-        c->floor = 1.5 * e->error;
+        if (p->measure.moves)
+            c->floor = 1.5 * e->error;
         t->rough = 1;
         p->now->count.rough++;
         return 1;
@@ -191,7 +192,7 @@ static int try_until_done(stepper *p, double *dt, tries *t, step_error *e, doubl
     enum step_outcome outcome;
 
     for (;; t->n++) {
-        if (*dt < p->least)
+        if (t->n && *dt < p->least)
             return error_set(err, ERR_CONVERGE,
                              "at t = %.6g no step is short enough: the last try, of %.3g, failed: %s", p->now->t,
                              *dt, p->report.why);
@@ -212,7 +213,7 @@ int stepper_advance_freely(stepper *p, double until, error *err)
     step_control *c = &now->control;
     double size[SPACE_MAX_FIELDS], wish = now->n_history > 0 ? fmin(c->next, 2 * now->dt_previous) : c->next;
     double dt = control_land(now->t, wish, until);
-    step_error e = {-1, 0};
+    step_error e;
     tries t = {0};
 
     p->n_failed = 0;
@@ -220,13 +221,16 @@ int stepper_advance_freely(stepper *p, double until, error *err)
     memcpy(c->scale, size, sizeof size);
     if (t.jumped)
         c->n_past = 0;
-    if (e.error < 0 || t.jumped || c->jumped) { /* nothing is known yet: another one of the same length */
+    if (t.jumped || c->jumped) { /* nothing is known yet: another one of the same length */
         c->next = dt;
         c->before = 0;
     } else if (t.rough)
         c->next = wish; /* as if it had not been tried shorter */
     else
-        control_accept(c, e.error / fmax(1, c->floor), dt, t.n > 0);
+        control_accept(c, e.error / fmax(1, c->floor), dt,
+                       t.error > 0 ? REPEATED_ERROR
+                       : t.n       ? REPEATED
+                                   : NOT_REPEATED);
     c->jumped = t.jumped;
     c->floor *= 0.9;
     c->usual = fmax(dt, 0.9 * c->usual);

@@ -24,9 +24,10 @@ typedef struct body_past {
 
 /* What is remembered of the errors of steps, each over what is allowed; see solve/step_control.h. */
 typedef struct step_control {
-    double next;                    /* length of the next step, s; 0: not known yet */
+    double next;                    /* length of the next step, s */
     double before;                  /* error of the last step                       */
     double floor;                   /* error that no shorter step makes smaller     */
+    int64_t careful;                /* so many steps may grow by little only */
     int64_t jumped;                 /* the last step held a jump: what is behind it foretells nothing */
     double usual;                   /* length of the longest of the last steps, s   */
     double scale[SPACE_MAX_FIELDS]; /* largest size of each field so far */

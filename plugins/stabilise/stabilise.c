@@ -141,7 +141,7 @@ static const pf_term grad_div = {
     PF_OUT({"div_v", "u", PF_DIV, PF_SCALAR}),
     PF_PARAMS(struct stabilise, PF_DENSITY(struct stabilise), PF_VISCOSITY(struct stabilise),
               PF_NUMBER(struct stabilise, grad_div, "1", "strength of grad-div, in rho |u| h", .dflt = 0.1,
-                        PF_NOT_NEGATIVE)),
+                        .min = 0, .max = 1000)),
     .jacobian = grad_div_jacobian,
 };
 

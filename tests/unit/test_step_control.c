@@ -69,19 +69,19 @@ static void a_step_grows_shrinks_and_stays(void **state)
     step_control c = {.before = 0.5};
 
     (void)state;
-    control_accept(&c, 1e-6, 0.1, 0);
+    control_accept(&c, 1e-6, 0.1, NOT_REPEATED);
     near(c.next, 0.2, 1e-15); /* no more than twice */
     c = (step_control){.before = 0.5};
-    control_accept(&c, 0.6, 0.1, 0);
+    control_accept(&c, 0.6, 0.1, NOT_REPEATED);
     near(c.next, 0.1, 1e-15); /* little is nothing */
     c = (step_control){.before = 0.5};
-    control_accept(&c, 0.95, 0.1, 0);
+    control_accept(&c, 0.95, 0.1, NOT_REPEATED);
     assert_true(c.next < 0.09);
     c = (step_control){.before = 0.5};
-    control_accept(&c, 1e-6, 0.1, 1);
+    control_accept(&c, 1e-6, 0.1, REPEATED);
     near(c.next, 0.1, 1e-15); /* one that had to be repeated does not grow at once */
     c = (step_control){.before = 0.5, .next = 0.3};
-    control_accept(&c, 1e-3, 0.01, 0);
+    control_accept(&c, 1e-3, 0.01, NOT_REPEATED);
     near(c.next, 0.3, 1e-15); /* cut to land somewhere */
     assert_true(control_shorten(8, 0.1) < 0.05 && control_shorten(1.1, 0.1) <= 0.07 &&
                 control_shorten(1e9, 0.1) >= 0.02);
