@@ -19,7 +19,7 @@ fluid { density = 1, viscosity = mu, gravity = {0, -981} }
 term "continuity" {}
 term "momentum" {}
 particulate(formulation)
-term "contact.repulsion" { range = 0.06 }
+term "contact.repulsion" { range = 0.06, strength = 40 } -- stiff: what falls fast stays clear of the floor by half a cell
 term "contact.lubrication" {}                      -- films thinner than cells
 if stabilise then term "stabilise" {} end
 

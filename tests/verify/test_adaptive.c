@@ -74,6 +74,71 @@ static void a_jump_is_caught(void **state)
     assert_between(after - before, 0, 1e-4);
 }
 
+/* Where all fluid is near a body that moves as it is told, and where it is near one that stands. */
+static void fluid_near_bodies_is_measured(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        char arguments[200];
+        double exact, adaptive;
+
+        snprintf(arguments, sizeof arguments, "tests/verify/stirrer.lua --set motion=%s --set dt=0.02",
+                 k ? "fixed" : "prescribed");
+        exact = run(arguments, "results.v");
+        snprintf(arguments, sizeof arguments, "tests/verify/stirrer.lua --set motion=%s",
+                 k ? "fixed" : "prescribed");
+        adaptive = run(arguments, "results.v");
+        print_message("# v %.4f, with steps of 0.02 %.4f; %g steps\n", adaptive, exact, summary("o", "steps"));
+        assert_between(adaptive / exact, 0.97, 1.03);
+        assert_between(summary("o", "steps"), 20, 300);
+    }
+}
+
+/* Dates of files and rows that meet but for round-off are one; so no step is made from one to the other. */
+static void dates_that_nearly_meet_are_one(void **state)
+{
+    static const char *const steps[] = {"tolerance = 1e-2", "step = 0.05"};
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        char text[1000];
+
+        snprintf(text, sizeof text,
+                 "mesh { box = {{0, 0}, {1, 1}}, cells = {4, 4} }\nfluid { density = 1, viscosity = 0.1 }\n"
+                 "term 'continuity' {}\nterm 'momentum' {}\nboundary '*' { u = {0, 0} }\n"
+                 "boundary 'top' { u = function(x, y, t) return math.sin(t), 0 end }\n"
+                 "time { %s, stop = 4 }\n"
+                 "output { every = 1, tables_every = 0.333333333, probes = { p = {0.5, 0.5} } }\n",
+                 steps[k]);
+        assert_ran(plugflow("run %s --quiet --out %s/o", put_file("dates.lua", text), scratch()), 0, NULL);
+        assert_between(summary("o", "steps"), 10, k ? 92 : 200);
+        assert_ran(shell("grep -c timestep %s/o/fields.pvd", scratch()), 0, "5");
+        assert_ran(shell("grep '\"dt\"' %s/o/run.jsonl | sed 's/.*\"dt\": \\([^,]*\\),.*/\\1/' | awk '$1 < 1e-4 { "
+                         "print; bad = "
+                         "1 } END { exit bad }'",
+                         scratch()),
+                   0, NULL);
+    }
+}
+
+static void a_short_first_step_does_no_harm(void **state)
+{
+    (void)state;
+    put_file("first.lua",
+             "mesh { box = {{0, 0}, {1, 1}}, cells = {4, 4} }\nfluid { density = 1, viscosity = 0.1 }\n"
+             "term 'continuity' {}\nterm 'momentum' {}\nboundary '*' { u = {0, 0} }\n"
+             "boundary 'top' { u = {param('lid', 1), 0} }\n"
+             "time { tolerance = 1e-2, step = 1e-7, stop = 'steady', at_most = 100 }\n"
+             "output { probes = { p = {0.5, 0.5} } }\nresults(function(r) return { u = r.last['p.u'] } end)\n");
+    assert_ran(plugflow("run %s/first.lua --quiet --out %s/o", scratch(), scratch()), 0, NULL);
+    assert_between(summary("o", "results.u"), -0.22, -0.19);
+    assert_between(summary("o", "stopped_at"), 0.5, 50);
+    /* at rest nothing drives the steps, and nothing is steady that has not begun */
+    assert_ran(plugflow("run %s/first.lua --quiet --set lid=0 --out %s/o", scratch(), scratch()), 0,
+               "is not steady");
+    assert_between(summary("o", "steps"), 1, 100);
+}
+
 static void a_run_ends_when_the_flow_is_steady(void **state)
 {
     (void)state;
@@ -126,9 +191,11 @@ static void a_step_costs_one_matrix(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_error_is_the_tolerance),         cmocka_unit_test(a_jump_is_caught),
-        cmocka_unit_test(a_run_ends_when_the_flow_is_steady), cmocka_unit_test(two_runs_are_the_same),
-        cmocka_unit_test(a_disk_falls_in_few_steps),          cmocka_unit_test(a_step_costs_one_matrix),
+        cmocka_unit_test(the_error_is_the_tolerance),      cmocka_unit_test(a_jump_is_caught),
+        cmocka_unit_test(fluid_near_bodies_is_measured),   cmocka_unit_test(dates_that_nearly_meet_are_one),
+        cmocka_unit_test(a_short_first_step_does_no_harm), cmocka_unit_test(a_run_ends_when_the_flow_is_steady),
+        cmocka_unit_test(two_runs_are_the_same),           cmocka_unit_test(a_disk_falls_in_few_steps),
+        cmocka_unit_test(a_step_costs_one_matrix),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
