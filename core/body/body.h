@@ -105,7 +105,7 @@ typedef struct body_paths {
     int n;
     moving_body *body; /* [n_body * n_image] */
     uint8_t *cell;     /* [n_cell] near one that moves */
-    uint8_t *seen; /* [n_carrier] room             */
+    uint8_t *seen;     /* [n_carrier] room             */
 } body_paths;
 
 typedef struct bodies {
@@ -208,8 +208,8 @@ enum too_far bodies_too_far(const bodies *b, const pose *from, const pose *to, c
  * at then[l].  NULL: all history stays at its place.  Valid until the next call. */
 const moving_frame *bodies_paths(bodies *b, const placement *now, int levels, const double *c,
                                  const double *const *u, const pose *const *then, const double *history);
-/* The fields of the fluid that have history extrapolated to now, sum over levels of c[l] u[l], along the same paths:
- * into x [n_dof] at the nodes near bodies that move; elsewhere x stays. */
+/* The fields of the fluid that have history extrapolated to now, sum over levels of c[l] u[l], along the same
+ * paths: into x [n_dof] at the nodes near bodies that move; elsewhere x stays. */
 void bodies_extrapolate(bodies *b, const placement *now, int levels, const double *c, const double *const *u,
                         const pose *const *then, double *x);
 

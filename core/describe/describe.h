@@ -67,8 +67,8 @@ typedef struct body_spec {
 /* time {}. */
 typedef struct time_spec {
     int unsteady;
-    int order;               /* 1: BDF1, 2: BDF2                         */
-    int geometry_iterations; /* how often bodies are placed anew in a step */
+    int order;                /* 1: BDF1, 2: BDF2                         */
+    int geometry_iterations;  /* how often bodies are placed anew in a step */
     double step, start, stop; /* with a tolerance step is the first one, 0: to be chosen */
     double tolerance;         /* of steps that choose their length; 0: all are of length step */
     double steady;            /* > 0: the run ends when the flow changes by less, see run/march.c */

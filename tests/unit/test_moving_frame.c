@@ -189,8 +189,8 @@ static void what_a_body_carries_is_steady_along_its_path(void **state)
     }
 }
 
-/* The matrix is the derivative of the residual: central differences are exact where this is quadratic, as it is but for
- * surface.inflow, which the case here switches off. */
+/* The matrix is the derivative of the residual: central differences are exact where this is quadratic, as it is but
+ * for surface.inflow, which the case here switches off. */
 static void the_jacobian_knows_the_paths(void **state)
 {
     (void)state;
