@@ -1,8 +1,8 @@
 -- Two disks fall one above the other, fast: drafting, kissing, tumbling at Reynolds numbers of some hundreds (Glowinski et al. 2001,
 -- J. Comput. Phys. 169:363; Uhlmann 2005, J. Comput. Phys. 209:448, whose small offsets from the axis these are).
--- Expect the upper disk in the wake of the lower to catch up, the pair to turn over and part: on the default mesh nearest, 0.07 d
--- apart, at 0.19 s, side by side at 0.28 s (with all steps 1 ms and without stabilise: 0.15 d at 0.195 s, 0.218 s). Re goes up to 770;
--- the largest values are those of a wake that the mesh barely resolves. Two minutes.
+-- Expect the upper disk in the wake of the lower to catch up, the pair to turn over and part: on the default mesh nearest, 0.16 d
+-- apart, at 0.22 s, side by side at 0.33 s. Re goes up to 790. The wake is barely resolved, and when it tips over decides: without
+-- `stabilise`, with steps of 1 ms, the disks are nearest at 0.195 s and side by side at 0.22 s. Two minutes.
 case "Drafting, kissing, tumbling, fast"
 
 local n = param("n", 16, "cells per cm")
