@@ -2,8 +2,8 @@
 -- 169:363). Published largest Reynolds numbers rho_P d |U| / mu lie between 438 and 466 and grow as the mesh gets finer (Glowinski et
 -- al.; Wan and Turek 2006, Int. J. Numer. Meth. Fluids 51:531). The disk falls straight at first and at 0.14 s has 458 to 467. Then its
 -- wake tips over, it drifts to a side, slows down, and rebounds from the floor. When the wake tips over is a matter of small
--- disturbances, and with it the largest Reynolds number: 527 and 526 at four and six cells across, 502 at four without `stabilise`,
--- with the same equations. Two minutes.
+-- disturbances, and with it the largest Reynolds number: 527, 526, 523 at four, six, eight cells across, 502 at four without `stabilise`.
+-- Two minutes.
 case "Disk falling fast"
 
 local n = param("n", 16, "cells per cm")
