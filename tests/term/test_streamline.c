@@ -72,6 +72,9 @@ static void rows_of_streamline(const char *shape, int body, double shift, double
     for (int64_t d = 0; d < s->n_dof; d++) {
         double place[3] = {0};
 
+        x[d] = 0;
+        if (s->dof_node[d] >= k->p.mesh.n_node) /* of the body */
+            continue;
         memcpy(place, k->p.mesh.x + (int64_t)s->dof_node[d] * k->p.mesh.dim, (size_t)k->p.mesh.dim * sizeof *place);
         x[d] = is_velocity(s, d) ? exact(place, k->p.mesh.dim, s->dof_comp[d], 0)
                                  : 2 * place[0] - 3 * place[1] + place[2];
