@@ -204,6 +204,8 @@ enum too_far bodies_too_far(const bodies *b, const pose *from, const pose *to, c
 
 /* --- paths (paths.c) --- */
 
+/* Bit f: some term has du/dt of field f. */
+uint32_t bodies_rated(const bodies *b);
 /* Paths that history comes along near bodies, history = sum over levels of c[l] u[l]; level l when the bodies were
  * at then[l].  NULL: all history stays at its place.  Valid until the next call. */
 const moving_frame *bodies_paths(bodies *b, const placement *now, int levels, const double *c,

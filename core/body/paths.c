@@ -269,20 +269,26 @@ int paths_at(void *bodies_, int64_t cell, const double *x, double *w, double *hi
     return 1;
 }
 
-/* Fields that the paths matter to: those of the fluid only, with du/dt in some term. */
-static uint32_t find_fields(const bodies *b)
+uint32_t bodies_rated(const bodies *b)
 {
     const description *d = b->description;
     uint32_t found = 0;
 
     for (int i = 0; i < d->n_use; i++)
-        for (uint32_t k = 0; k < d->use[i].term->n_in; k++) {
-            const pf_slot *slot = &d->use[i].term->in[k];
-            int f = slot->eval == PF_DOT ? space_find_field(b->space, slot->field) : -1;
+        for (uint32_t k = 0; k < d->use[i].term->n_in; k++)
+            if (d->use[i].term->in[k].eval == PF_DOT)
+                found |= 1u << space_find_field(b->space, d->use[i].term->in[k].field);
+    return found;
+}
 
-            if (f >= 0 && b->space->field[f].order > 0 && b->fluid_only[f])
-                found |= 1u << f;
-        }
+/* Fields that the paths matter to: those of the fluid only, with du/dt in some term. */
+static uint32_t find_fields(const bodies *b)
+{
+    uint32_t found = bodies_rated(b);
+
+    for (int f = 0; f < b->space->n_field; f++)
+        if (b->space->field[f].order == 0 || !b->fluid_only[f])
+            found &= ~(1u << f);
     return found;
 }
 

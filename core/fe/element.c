@@ -129,15 +129,21 @@ static void line_basis(int order, double s, double *l, double *dl)
     }
 }
 
+/* Those of all directions; of the third in 2D there is a constant. */
+static void line_bases(int dim, int order, const double *xi, double (*l)[3], double (*dl)[3])
+{
+    for (int k = 0; k < dim; k++)
+        line_basis(order, xi[k], l[k], dl[k]);
+    if (dim == 2)
+        l[2][0] = 1;
+}
+
 static void tensor_basis(int dim, int order, const double *xi, double *n, double (*dn)[3])
 {
     double l[3][3] = {{0}}, dl[3][3] = {{0}};
     int m = order + 1, mz = dim == 3 ? m : 1;
 
-    for (int k = 0; k < dim; k++)
-        line_basis(order, xi[k], l[k], dl[k]);
-    if (dim == 2)
-        l[2][0] = 1;
+    line_bases(dim, order, xi, l, dl);
     for (int c = 0, i = 0; c < mz; c++)
         for (int b = 0; b < m; b++)
             for (int a = 0; a < m; a++, i++) {
@@ -196,10 +202,7 @@ static void tensor_second(int dim, int order, const double *xi, double (*d2n)[FE
     const double d2l[3] = {order == 2 ? 1 : 0, order == 2 ? -2 : 0, order == 2 ? 1 : 0};
     int m = order + 1, mz = dim == 3 ? m : 1;
 
-    for (int k = 0; k < dim; k++)
-        line_basis(order, xi[k], l[k], dl[k]);
-    if (dim == 2)
-        l[2][0] = 1;
+    line_bases(dim, order, xi, l, dl);
     for (int c = 0, i = 0; c < mz; c++)
         for (int b = 0; b < m; b++)
             for (int a = 0; a < m; a++, i++) {

@@ -10,7 +10,7 @@
 bdf bdf_of(int order, double dt, double dt_previous)
 {
     double w = order == 2 ? dt / dt_previous : 0;
-    bdf b = {.order = order, .shift = 1 / dt, .c = {-1 / dt, 0}, .ratio = w};
+    bdf b = {.order = order, .shift = 1 / dt, .c = {-1 / dt, 0}};
 
     if (order == 2) {
         b.shift = (1 + 2 * w) / (1 + w) / dt;

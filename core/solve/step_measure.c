@@ -26,7 +26,6 @@ int measure_create(step_measure *m, const bodies *b, const int *vanishes, arena 
 {
     const space *s = b->space;
     const mesh *q = s->mesh;
-    const description *d = b->description;
 
     m->space = s;
     m->bodies = b;
@@ -35,10 +34,7 @@ int measure_create(step_measure *m, const bodies *b, const int *vanishes, arena 
         m->moves |= b->spec[k].motion != BODY_FIXED;
         m->free |= b->spec[k].motion == BODY_FREE;
     }
-    for (int i = 0; i < d->n_use; i++)
-        for (uint32_t k = 0; k < d->use[i].term->n_in; k++)
-            if (d->use[i].term->in[k].eval == PF_DOT)
-                m->rated |= 1u << space_find_field(s, d->use[i].term->in[k].field);
+    m->rated = bodies_rated(b);
     ARENA_NEW(memory, m->weight, s->n_carrier, err);
     ARENA_NEW(memory, m->cut, s->n_carrier, err);
     for (int64_t c = 0; c < q->n_cell; c++)

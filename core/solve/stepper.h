@@ -84,7 +84,6 @@ int step_react(stepper *p, newton_time time, const double *x, error *err);
 typedef struct bdf {
     int order;
     double shift, c[2];
-    double ratio; /* dt / dt_previous, 0 for order 1: u^n + ratio (u^n - u^{n-1}) extrapolates */
 } bdf;
 
 bdf bdf_of(int order, double dt, double dt_previous);

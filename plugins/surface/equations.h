@@ -13,12 +13,30 @@ static inline void F(slip)(const pf_batch *b, const NUM *u, const NUM *U, const 
         w[a] = u[a * LD + i] - U[a * LD + i] - F(pf_turn)(b, omega, a, i);
 }
 
+/* What the test functions meet of z at lane i: the fluid gets it, the body what is opposite, force and torque */
+static inline void F(give)(const pf_batch *b, const NUM *z, uint32_t i, NUM *v, NUM *V, NUM *xi)
+{
+    const double *r = b->arm;
+
+    for (uint32_t a = 0; a < b->dim; a++) {
+        v[a * LD + i] = z[a];
+        V[a * LD + i] = -z[a];
+    }
+    if (b->dim == 2)
+        xi[i] = r[LD + i] * z[0] - r[i] * z[1];
+    for (uint32_t a = 0; b->dim == 3 && a < 3; a++) {
+        const uint32_t j = (a + 1) % 3, k = (a + 2) % 3;
+
+        xi[a * LD + i] = r[k * LD + i] * z[j] - r[j * LD + i] * z[k];
+    }
+}
+
 /* -(2 mu D(u) n - p n) . z  +  2 mu D(v) n . w  -  q n . w  +  gamma mu/h w . z */
 static int F(nitsche)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct surface *s = b->params;
     const NUM *restrict grad_u = in[1], *restrict p = in[2];
-    const double *restrict n = b->normal, *restrict r = b->arm, mu = s->viscosity;
+    const double *restrict n = b->normal, mu = s->viscosity;
     const uint32_t dim = b->dim;
     NUM *restrict v = out[0], *restrict grad_v = out[1], *restrict q = out[2], *restrict V = out[3],
                   *restrict xi = out[4];
@@ -36,17 +54,9 @@ static int F(nitsche)(const pf_batch *b, const NUM *const *in, NUM *const *out)
                 grad_v[(a * dim + k) * LD + i] = mu * (w[a] * n[k * LD + i] + w[k] * n[a * LD + i]);
             }
             z[a] = s->gamma * mu / b->h[i] * w[a] - t;
-            v[a * LD + i] = z[a];
-            V[a * LD + i] = -z[a];
             q[i] -= n[a * LD + i] * w[a];
         }
-        if (dim == 2)
-            xi[i] = r[LD + i] * z[0] - r[i] * z[1];
-        for (uint32_t a = 0; dim == 3 && a < 3; a++) {
-            const uint32_t j = (a + 1) % 3, k = (a + 2) % 3;
-
-            xi[a * LD + i] = r[k * LD + i] * z[j] - r[j * LD + i] * z[k];
-        }
+        F(give)(b, z, i, v, V, xi);
     }
     return PF_OK;
 }
@@ -56,7 +66,6 @@ static int F(nitsche)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 static int F(inflow)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct inflow *s = b->params;
-    const double *restrict r = b->arm;
     const uint32_t dim = b->dim;
     NUM *restrict v = out[0], *restrict V = out[1], *restrict xi = out[2];
 
@@ -67,18 +76,9 @@ static int F(inflow)(const pf_batch *b, const NUM *const *in, NUM *const *out)
         for (uint32_t a = 0; a < dim; a++)
             inward += w[a] * b->normal[a * LD + i];
         inward = creal(inward) < 0 ? inward : 0;
-        for (uint32_t a = 0; a < dim; a++) {
+        for (uint32_t a = 0; a < dim; a++)
             z[a] = -s->inflow * s->density * inward * w[a];
-            v[a * LD + i] = z[a];
-            V[a * LD + i] = -z[a];
-        }
-        if (dim == 2)
-            xi[i] = r[LD + i] * z[0] - r[i] * z[1];
-        for (uint32_t a = 0; dim == 3 && a < 3; a++) {
-            const uint32_t j = (a + 1) % 3, k = (a + 2) % 3;
-
-            xi[a * LD + i] = r[k * LD + i] * z[j] - r[j * LD + i] * z[k];
-        }
+        F(give)(b, z, i, v, V, xi);
     }
     return PF_OK;
 }
