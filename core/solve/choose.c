@@ -25,6 +25,11 @@ static double available_memory(void)
     return kb > 0 ? 1024 * kb : (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
 }
 
+const pf_solver *linear_method(const linear *l, int method)
+{
+    return method == METHOD_DIRECT ? l->choice.direct : l->choice.iterative;
+}
+
 int linear_analyze(linear *l, int method, int *unfit, error *err)
 {
     const pf_solver *solver = linear_method(l, method);

@@ -28,11 +28,6 @@ enum { ITERATIVE_MOST = 150 };
 /* An iterative solver is set up anew where it takes so many more iterations than usual. */
 enum { TIRED = 6 };
 
-const pf_solver *linear_method(const linear *l, int method)
-{
-    return method == METHOD_DIRECT ? l->choice.direct : l->choice.iterative;
-}
-
 const pf_solver *linear_solver(const linear *l)
 {
     return l->analyzed ? linear_method(l, l->at) : NULL;
