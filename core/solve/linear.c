@@ -74,13 +74,12 @@ int linear_renew(linear *l, error *err)
     arena_free(&l->memory);
     gmres_destroy(&l->krylov);
     l->analyzed = l->factored = l->fresh = l->kept = 0;
-    l->field_scale = NULL;
+    l->row_scale = NULL;
     l->a = (pf_csr){.n = s->n_free, .row = s->row, .col = s->col, .n_node = s->n_row_node, .node = s->row_node};
     l->max_iterations = s->mesh->dim == 2 ? 12 : LINEAR_MAX_ITERATIONS;
     ARENA_NEW(&l->memory, l->value, s->row[s->n_free], err);
     l->a.value = l->value;
     ARENA_NEW(&l->memory, l->r, s->n_free, err);
-    ARENA_NEW(&l->memory, l->row_scale, s->n_free, err);
     TRY(unknowns_create(&l->rows, &l->memory, s, err));
     l->a.unknowns = &l->rows.view;
     l->krylov = (gmres){.a = &l->a, .n_thread = l->n_thread, .apply = precondition, .ctx = l, .r = l->r};
@@ -179,22 +178,14 @@ static void hold(linear *l, double *b)
     }
 }
 
-/* The iteration has residuals as the caller measures them, and leaves free constants alone. */
+/* In an iteration residuals of different fields compare, and free constants are left alone. */
 static void prepare(linear *l, double *b, int approximate)
 {
-    l->krylov.scale = NULL;
     l->krylov.project = approximate ? project : NULL;
     l->krylov.level = approximate ? level : NULL;
+    l->krylov.scale = approximate ? l->row_scale : NULL;
     if (!approximate)
         hold(l, b);
-    if (!approximate || !l->field_scale)
-        return;
-    for (int64_t i = 0; i < l->a.n; i++) {
-        double s = l->field_scale[l->rows.view.field_of[i]];
-
-        l->row_scale[i] = s > 0 ? 1 / s : 1;
-    }
-    l->krylov.scale = l->row_scale;
 }
 
 int linear_apply(linear *l, double *b, double *x, error *err)
@@ -307,6 +298,7 @@ static int solve_by_iteration(linear *l, double *b, double *x, double tol, error
     double reached = INFINITY, solve_flops = 4 * l->stats.cost.fill;
     int had = l->stats.gmres_iterations;
 
+    TRY(linear_measure(l, err));
     prepare(l, b, 1);
     if (l->factored && !l->fresh && l->spent * solve_flops < l->stats.cost.flops) {
         int spent = l->spent;

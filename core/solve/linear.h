@@ -37,16 +37,15 @@ typedef struct linear {
     pf_csr a;
     double *value;
     int n_thread;
-    int analyzed, factored;    /* factored: something was set up, perhaps of an older matrix */
-    int fresh;                 /* it is of the matrix of the last solve ...      */
-    int kept;                  /* ... and the next one has the same              */
-    int gave_up;               /* the iterative solver failed once               */
-    int max_iterations;        /* of GMRES with old factors; 0: factor every matrix        */
-    int spent;                 /* GMRES iterations since the last factorisation, beyond what fresh ones take */
-    int usual;                 /* iterations of the iterative solver, freshly set up */
-    double memory_limit;       /* bytes                                                    */
-    const double *field_scale; /* [n_field] unless NULL: residuals count relative to these in an iteration */
-    double *row_scale;         /* [n] their inverses by rows */
+    int analyzed, factored; /* factored: something was set up, perhaps of an older matrix */
+    int fresh;              /* it is of the matrix of the last solve ...      */
+    int kept;               /* ... and the next one has the same              */
+    int gave_up;            /* the iterative solver failed once               */
+    int max_iterations;     /* of GMRES with old factors; 0: factor every matrix        */
+    int spent;              /* GMRES iterations since the last factorisation, beyond what fresh ones take */
+    int usual;              /* iterations of the iterative solver, freshly set up */
+    double memory_limit;    /* bytes                                                    */
+    double *row_scale;      /* [n] their inverses by rows */
     unknowns rows;
     const int64_t *pin; /* [n_field] row of the value that is held of a free field, or -1 */
     gmres krylov;
@@ -83,6 +82,8 @@ int linear_approximates(const pf_solver *s); /* PF_SOLVER_APPROXIMATE */
 
 /* --- between the files of this folder --- */
 
+/* row_scale, from the matrix. */
+int linear_measure(linear *l, error *err);
 const pf_solver *linear_method(const linear *l, int method);
 /* Analysis by one method: the error says what went wrong, *unfit: only that this solver is not for such systems. */
 int linear_analyze(linear *l, int method, int *unfit, error *err);
