@@ -49,7 +49,8 @@ typedef struct linear {
     unknowns rows;
     const int64_t *pin; /* [n_field] row of the value that is held of a free field, or -1 */
     gmres krylov;
-    double *r; /* [n] b - A x of the last solve */
+    double *b, *dx; /* [n] room of the refinement */
+    double *r;      /* [n] b - A x of the last solve */
     linear_stats stats;
     warning_list *warnings; /* NULL: nobody listens */
     arena memory;           /* of this pattern */

@@ -7,7 +7,7 @@
 #include <string.h>
 
 enum { COARSEST = 500 }; /* blocks */
-#define STRENGTH 0.08
+#define STRENGTH 0.02
 
 /* The block of a field (and of a component) at a node, or -1. */
 static int32_t block_at(const split *s, int64_t group, int field, int slot)
@@ -164,8 +164,8 @@ static void close_level(velocity_level *l)
             for (int c = 0; c < b; c++) {
                 int r1 = (c + 1) % 3, r2 = (c + 2) % 3, c1 = (r + 1) % 3, c2 = (r + 2) % 3;
 
-                v[c * b + r] =
-                    fabs(det) > 0 ? (float)((d[r1][c1] * d[r2][c2] - d[r1][c2] * d[r2][c1]) / det) : (float)(r == c);
+                v[c * b + r] = fabs(det) > 0 ? (float)((d[r1][c1] * d[r2][c2] - d[r1][c2] * d[r2][c1]) / det)
+                                             : (float)(r == c);
             }
     }
 }
@@ -306,7 +306,7 @@ int levels_create(levels *l, const split *s)
         if (n->a.n <= COARSEST)
             break;
         from_aggregates(n, n_kept, &l->memory);
-        if (l->memory.failed || n->prolong.n_col > 0.8 * n->a.n)
+        if (l->memory.failed || n->prolong.n_col == n_kept || n->prolong.n_col > 0.8 * n->a.n)
             break;
         next_level(l, &n->a, n->active, &n->prolong, &n->restrict_);
     }

@@ -14,7 +14,7 @@ enum { COARSEST = 600 };
 enum { INNER_MOST = 20 };
 
 /* Couplings below this, relative to the diagonals, are weak. */
-#define STRENGTH 0.06
+#define STRENGTH 0.02
 
 /* A constant pressure that is free leaves T singular. */
 #define SHIFT 1e-8
@@ -320,7 +320,7 @@ void pressure_solve(pressure *q, const double *r, double *p)
         q->y[i] = s->active_p[i] ? q->sign * r[i] : 0;
     solve_t(q, q->y, p); /* p: y of the recipe */
     memcpy(q->y, p, (size_t)s->n_p * sizeof *p);
-    split_gradient(s, q->y, q->f);
+    split_gradient(s, q->y, 1, q->f);
     for (int64_t i = 0; i < (int64_t)s->f.n * b; i++)
         q->f[i] *= s->inverse_diagonal[i];
     block_multiply(&s->f, s->n_thread, q->f, q->g);

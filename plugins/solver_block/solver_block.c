@@ -28,8 +28,8 @@ typedef struct block_solver {
     pressure pressure;
     levels levels;
     int has_levels;
-    float *q, *u, *w; /* [n blocks][b] */
-    double *rp, *p;   /* [n_p]         */
+    float *q, *u, *w;    /* [n blocks][b] */
+    double *rp, *p, *p2; /* [n_p]         */
     pool memory;
 } block_solver;
 
@@ -79,6 +79,7 @@ static int analyze(void *self, const pf_csr *a, pf_solver_cost *cost, char *err,
     TAKE(&s->memory, s->w, (int64_t)s->split.f.n * s->split.b);
     TAKE(&s->memory, s->rp, s->split.n_p + 1);
     TAKE(&s->memory, s->p, s->split.n_p + 1);
+    TAKE(&s->memory, s->p2, s->split.n_p + 1);
     if (s->memory.failed)
         return fail(err, nerr, PF_SOLVER_MEMORY, "out of memory");
     entries = (double)s->split.f.row[s->split.f.n] * s->split.b * s->split.b;
@@ -130,6 +131,44 @@ static int setup(void *self, const pf_csr *a, char *err, size_t nerr)
                   : PF_SOLVER_OK;
 }
 
+static int update(void *self, const pf_csr *a, char *err, size_t nerr)
+{
+    block_solver *s = self;
+
+    (void)err, (void)nerr;
+    split_fill(&s->split, a);
+    return PF_SOLVER_OK;
+}
+
+/* By the blocks in single precision. */
+static void multiply(void *self, const double *x, double *y)
+{
+    block_solver *s = self;
+    const split *q = &s->split;
+    int64_t n = (int64_t)q->f.n * q->b;
+    double largest = 0;
+
+    for (int64_t i = 0; i < q->a->n; i++)
+        largest = fmax(largest, fabs(x[i]));
+    if (!(largest > 0) || !isfinite(largest)) {
+        memcpy(y, x, (size_t)q->a->n * sizeof *x);
+        return;
+    }
+    for (int32_t i = 0; i < q->n_p; i++)
+        s->p[i] = x[q->row_of_p[i]];
+    for (int64_t i = 0; i < n; i++)
+        s->q[i] = q->row_of[i] >= 0 ? (float)(x[q->row_of[i]] / largest) : 0;
+    block_multiply(&q->f, s->n_thread, s->q, s->u);
+    split_gradient(q, s->p, 1 / largest, s->w);
+    for (int64_t i = 0; i < n; i++)
+        if (q->row_of[i] >= 0)
+            y[q->row_of[i]] = ((double)s->u[i] + s->w[i]) * largest;
+    split_divergence(q, s->q, s->rp);
+    sparse_multiply(&q->c, s->n_thread, s->p, s->p2);
+    for (int32_t i = 0; i < q->n_p; i++)
+        y[q->row_of_p[i]] = s->rp[i] * largest + s->p2[i];
+}
+
 /* s->u = about F^-1 s->q */
 static void solve_velocity(block_solver *s)
 {
@@ -165,7 +204,7 @@ static int solve(void *self, const double *b, double *x, char *err, size_t nerr)
     for (int32_t i = 0; i < q->n_p; i++)
         s->rp[i] = b[q->row_of_p[i]] / largest;
     pressure_solve(&s->pressure, s->rp, s->p);
-    split_gradient(q, s->p, s->w);
+    split_gradient(q, s->p, 1, s->w);
     for (int64_t i = 0; i < n; i++)
         s->q[i] = q->row_of[i] >= 0 ? (float)(b[q->row_of[i]] / largest) - s->w[i] : 0;
     solve_velocity(s);
@@ -197,6 +236,8 @@ static const pf_solver solver = {
     .solve = solve,
     .destroy = destroy,
     .flags = PF_SOLVER_APPROXIMATE,
+    .update = update,
+    .multiply = multiply,
 };
 
 __attribute__((visibility("default"))) const pf_solver *pf_solver_entry(char *err, size_t nerr);

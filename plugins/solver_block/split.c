@@ -304,7 +304,7 @@ void split_fill(split *s, const pf_csr *a)
     }
 }
 
-void split_gradient(const split *s, const double *p, float *v)
+void split_gradient(const split *s, const double *p, double scale, float *v)
 {
     int b = s->b;
 
@@ -314,7 +314,7 @@ void split_gradient(const split *s, const double *p, float *v)
 
         for (int64_t k = s->g_row[i]; k < s->g_row[i + 1]; k++)
             for (int c = 0; c < b; c++)
-                sum[c] += s->g[k * b + c] * (float)(s->active_p[s->g_col[k]] ? p[s->g_col[k]] : 0);
+                sum[c] += s->g[k * b + c] * (float)(s->active_p[s->g_col[k]] ? scale * p[s->g_col[k]] : 0);
         for (int c = 0; c < b; c++)
             v[(int64_t)i * b + c] = sum[c];
     }

@@ -41,8 +41,8 @@ int split_fits(const pf_csr *a, int *pressure, const char **why);
 void split_analyze(split *s, const pf_csr *a, int pressure, int n_thread, pool *p);
 /* Values. */
 void split_fill(split *s, const pf_csr *a);
-/* v = G p (of active pressures), q = D v (0 where none is active). */
-void split_gradient(const split *s, const double *p, float *v);
+/* v = scale G p (of active pressures), q = D v (0 where none is active). */
+void split_gradient(const split *s, const double *p, double scale, float *v);
 void split_divergence(const split *s, const float *v, double *q);
 
 #endif
