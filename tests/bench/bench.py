@@ -14,9 +14,9 @@ import jobs
 import measure
 import record
 
-COLUMNS = ("seconds", "setup_seconds", "geometry_seconds", "assemble_seconds", "factor_seconds", "solve_seconds", "output_seconds",
-           "other_seconds", "seconds_per_step", "newton_iterations", "unknowns", "peak_memory_bytes")
-HEADS = ("total", "setup", "geom.", "assemble", "factor", "solve", "output", "other", "s/step", "newton", "unknowns", "MB")
+COLUMNS = ("seconds", "cpu_seconds", "setup_seconds", "geometry_seconds", "assemble_seconds", "factor_seconds", "solve_seconds",
+           "output_seconds", "other_seconds", "seconds_per_step", "newton_iterations", "unknowns", "peak_memory_bytes")
+HEADS = ("total", "cpu", "setup", "geom.", "assemble", "factor", "solve", "output", "other", "s/step", "newton", "unknowns", "MB")
 
 BUSY = 0.5
 WHOLE = ("newton_iterations", "unknowns", "peak_memory_bytes")

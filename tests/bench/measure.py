@@ -4,6 +4,7 @@ import glob
 import json
 import os
 import re
+import resource
 import shutil
 import subprocess
 import tempfile
@@ -38,6 +39,12 @@ def command(words, env=None):
     return done.stdout
 
 
+def cpu_seconds():
+    """Of all programs that have ended: they do not grow much where others share the cores."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def values(text):
     """Of lines "name value unit"."""
     found = {}
@@ -66,6 +73,7 @@ def seconds_per_step(out, steps):
 def case_entries(name, summary):
     seconds = summary["seconds"]
     yield f"{name}.seconds", seconds["total"], "s"
+    yield f"{name}.cpu_seconds", summary["cpu_seconds"], "s"
     for phase in PHASES:
         yield f"{name}.{phase}_seconds", seconds[phase], "s"
     yield f"{name}.other_seconds", seconds["total"] - sum(seconds[phase] for phase in PHASES), "s"
@@ -105,13 +113,16 @@ class Context:
         return values(command([self.program("bench_assembly"), path, *set_options(sets), *options], self.plugins()))
 
     def case(self, path, sets, threads):
-        """summary.json of a run, and its seconds_per_step."""
+        """summary.json of a run, its cpu_seconds and seconds_per_step."""
         with tempfile.TemporaryDirectory() as out:
+            start = cpu_seconds()
             command([f"{self.build}/plugflow", "run", path, *set_options(sets), "--quiet", "--threads", threads, "--out", out])
+            cpu = cpu_seconds() - start
             with open(f"{out}/summary.json") as f:
                 summary = json.load(f)
             if summary["status"] != "ok":
                 raise Failed(summary["status"])
+            summary["cpu_seconds"] = cpu
             summary["seconds_per_step"] = seconds_per_step(out, summary["steps"]) if summary["steps"] > 1 else None
         return summary
 
