@@ -11,6 +11,7 @@
 #include "base/random.h"
 #include "problem/problem.h"
 #include "solve/stepper.h"
+#include "used.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -134,10 +135,10 @@ static int best_of(bench *b, const char *name, int (*evaluate)(bench *, error *)
     double least = 1e300, begin = clock_seconds();
 
     for (int k = 0; b->times ? k < b->times : k < LEAST || clock_seconds() - begin < b->seconds; k++) {
-        double start = clock_seconds(), taken;
+        double start = used_seconds(b->p.n_thread), taken;
 
         TRY(evaluate(b, err));
-        taken = clock_seconds() - start;
+        taken = used_seconds(b->p.n_thread) - start;
         least = taken < least ? taken : least;
     }
     printf("%s %.9g s\n", name, least);
