@@ -48,9 +48,9 @@ def variants():
         yield space + ".bodies", {**sets, "bodies": count}, sizes, space.endswith("q2q1")
 
 
-def best_times(context, sets, threads):
+def best_times(context, sets, threads, *options):
     return context.assembly("tests/bench/flow.lua", sets, "--threads", threads, "--seconds",
-                            QUICK_SECONDS if context.quick else SECONDS)
+                            QUICK_SECONDS if context.quick else SECONDS, *options)
 
 
 def assembly_job(name, sets, sizes):
@@ -58,6 +58,7 @@ def assembly_job(name, sets, sizes):
         sets["n"] = sizes[1 if context.quick else 0]
         one = best_times(context, sets, 1)
         every = best_times(context, sets, context.threads) if context.threads > 1 else None
+        busiest = best_times(context, sets, context.threads, "--busiest") if every else None
         cells = one["cells"]
         for kind in ("jacobian", "residual", "history"):
             if kind not in one:
@@ -66,6 +67,7 @@ def assembly_job(name, sets, sizes):
             if every:
                 yield f"{kind}.{name}.all_cores.cells_per_second", cells / every[kind], "cells/s"
                 yield f"{kind}.{name}.speedup", one[kind] / every[kind], "1"
+                yield f"{kind}.{name}.share_speedup", one[kind] / busiest[kind], "1"
         if name in POINTS:
             limit = context.limits(1)
             least = 8 * one["matrix_entries"] + 24 * one["unknowns"]

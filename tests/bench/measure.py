@@ -110,7 +110,9 @@ class Context:
         return self.limit[threads]
 
     def assembly(self, path, sets, *options):
-        return values(command([self.program("bench_assembly"), path, *set_options(sets), *options], self.plugins()))
+        passive = {"OMP_WAIT_POLICY": "passive"} if "--busiest" in options else {}
+        return values(command([self.program("bench_assembly"), path, *set_options(sets), *options],
+                              {**self.plugins(), **passive}))
 
     def case(self, path, sets, threads):
         """summary.json of a run, its cpu_seconds and seconds_per_step."""
