@@ -30,10 +30,11 @@ def select(all_jobs, names, quick):
     """Jobs that may have entries of these names: those whose names begin so, else the one with the longest name that the
     wanted entry begins with."""
     if not names:
-        return [job for job in all_jobs if job.quick or not quick]
+        return [job for job in all_jobs if (job.quick or not quick) and not job.long]
     chosen = []
     for wanted in names:
-        found = [job for job in all_jobs if any(starts(name, wanted) for name in job.names)]
+        found = [job for job in all_jobs
+                 if any(starts(name, wanted) and (not job.long or name == wanted) for name in job.names)]
         if not found:
             longest = max((len(name) for job in all_jobs for name in job.names if starts(wanted, name)), default=0)
             found = [job for job in all_jobs

@@ -26,6 +26,7 @@ class Job:
     run: object
     quick: bool = False
     is_case: bool = False
+    long: bool = False  # runs only if its own name is given
 
 
 def dense_operations(space):
@@ -53,6 +54,10 @@ def variants():
         yield space + ".bodies", {**sets, "bodies": count}, sizes, space.endswith("q2q1")
 
 
+def kinds(name):
+    return ("jacobian", "residual", "history") if name.endswith(".bodies") else ("jacobian", "residual")
+
+
 def best_times(context, sets, threads, *options):
     return context.assembly("tests/bench/flow.lua", sets, "--threads", threads, "--seconds",
                             QUICK_SECONDS if context.quick else SECONDS, *options)
@@ -66,9 +71,7 @@ def assembly_job(name, sets, sizes):
         busiest = best_times(context, sets, context.threads, "--busiest") if every else None
         one = least(best_times(context, sets, 1), one)
         cells = one["cells"]
-        for kind in ("jacobian", "residual", "history"):
-            if kind not in one:
-                continue
+        for kind in kinds(name):
             yield f"{kind}.{name}.cells_per_second", cells / one[kind], "cells/s"
             if every:
                 yield f"{kind}.{name}.all_cores.cells_per_second", cells / every[kind], "cells/s"
@@ -105,14 +108,14 @@ def limits_job(context):
 
 # --- whole cases ---
 
-def case(name, path, quick=False, needs=None, all_cores=False, **sets):
+def case(name, path, quick=False, needs=None, all_cores=False, long=False, **sets):
     """needs: a linear solver without which the case is too large."""
     def run(context):
         if needs and needs not in context.solvers():
             raise measure.Skipped(f"needs {needs}, which is not among the plugins")
         yield from measure.case_entries(name, context.case(path, sets, context.threads if all_cores else 1))
 
-    return Job([name], run, quick, is_case=True)
+    return Job([name], run, quick, is_case=True, long=long)
 
 
 def cases():
@@ -132,6 +135,9 @@ def cases():
         case("settling_sphere.2", sphere, True, n=2, stop=0.075), case("settling_sphere.3", sphere, n=3, stop=0.125),
         case("settling_sphere.4", sphere, n=4, stop=0.1),
         case("settling_sphere.4.all_cores", sphere, n=4, stop=0.1, all_cores=True),
+        case("settling_sphere.4.long.all_cores", sphere, n=4, stop=0.9, all_cores=True, long=True),
+        case("fifty_disks.16.long", disks, n=16, steps=500, long=True),
+        case("whole_tank.4.long.all_cores", tank, n=4, steps=36, needs=block, all_cores=True, long=True),
         case("whole_tank.2", tank, n=2, steps=4),
         case("whole_tank.4.all_cores", tank, n=4, steps=4, needs=block, all_cores=True),
         case("sphere_in_box.34.all_cores", "tests/bench/flow.lua", needs=block, all_cores=True, dim=3, shape="hexes", bodies=1,
@@ -184,10 +190,10 @@ def freefem_job(context):
 def all_jobs():
     jobs = [Job(["limits"], limits_job, True)]
     for name, sets, sizes, quick in variants():
-        names = [f"{kind}.{name}" for kind in ("jacobian", "residual", "history")[:3 if "bodies" in name else 2]]
+        names = [f"{kind}.{name}" for kind in kinds(name)]
         jobs.append(Job(names, assembly_job(name, dict(sets), sizes), quick))
     for name, sets, sizes, quick in variants():
-        names = [f"instructions.{kind}.{name}" for kind in ("jacobian", "residual", "history")]
+        names = [f"instructions.{kind}.{name}" for kind in kinds(name)]
         jobs.append(Job(names, instructions_job(name, dict(sets), sizes), quick and name in POINTS))
     jobs += cases()
     return jobs + [dolfinx_job(2, 128), dolfinx_job(3, 12), Job(["cavity2d.128.vs_freefem"], freefem_job)]

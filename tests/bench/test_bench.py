@@ -95,6 +95,9 @@ def names_select(folder):
     assert first("falling_disk.20ms.seconds") == ["falling_disk.20ms"]
     assert first("falling_disk.seconds") == ["falling_disk"]
     assert set(first("falling_disk")) == {"falling_disk", "falling_disk.20ms", "falling_disk.32", "falling_disk.short"}
+    assert first("settling_sphere.4") == ["settling_sphere.4", "settling_sphere.4.all_cores"]
+    assert first("settling_sphere.4.long.all_cores.seconds") == ["settling_sphere.4.long.all_cores"]
+    assert not any(".long" in name for name in first())
     assert first("cavity2d.128.vs_dolfinx_mumps") == ["cavity2d.128.vs_dolfinx_mumps"]
     assert first("residual.3d.p2p1.cells_per_second") == ["jacobian.3d.p2p1"]
     assert len({name for job in every for name in job.names}) == sum(len(job.names) for job in every)
