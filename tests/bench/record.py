@@ -80,7 +80,8 @@ def new_run(threads, quick):
     now = datetime.datetime.now(datetime.timezone.utc)
     return {"machine": machine(), "date": now.strftime("%Y-%m-%dT%H:%M:%SZ"), "commit": commit(), "threads": threads,
             "quick": quick, "load": os.getloadavg()[0],
-            "environment": {k: v for k, v in os.environ.items() if k.startswith(("OPENBLAS_", "OMP_"))}, "entries": [], "failed": []}
+            "environment": {k: v for k, v in os.environ.items() if k.startswith(("OPENBLAS_", "OMP_"))},
+            "entries": [], "failed": []}
 
 
 def comparable(a, b):

@@ -41,7 +41,8 @@ def small_run_is_well_formed(folder):
     assert run["machine"]["cores"] >= 1 and run["machine"]["memory_bytes"] > 0 and run["date"].endswith("Z")
     value = {e["name"]: e["value"] for e in run["entries"]}
     for name in ("jacobian.2d.q2q1.cells_per_second", "residual.2d.q2q1.cells_per_second", "jacobian.2d.q2q1.of_peak",
-                 "taylor_green.16.seconds", "taylor_green.16.cpu_seconds", "taylor_green.16.assemble_seconds", "taylor_green.16.peak_memory_bytes"):
+                 "taylor_green.16.seconds", "taylor_green.16.cpu_seconds", "taylor_green.16.assemble_seconds",
+                 "taylor_green.16.peak_memory_bytes"):
         assert value[name] > 0, name
     assert all(v >= 0 for v in value.values()), value
     assert value["taylor_green.16.unknowns"] == 2304
