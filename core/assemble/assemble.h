@@ -25,7 +25,8 @@ enum {
     ASSEMBLE_MAX_USES = 32,
     ASSEMBLE_PAD = 3,
     SURFACE_POINTS = 16,
-    ASSEMBLE_CELL_DEGREE = 5
+    ASSEMBLE_CELL_DEGREE = 5,
+    ELEMENT_MOST_ENTRIES = 512 /* of an element vector */
 };
 
 /* Two bodies near each other, or a body and a wall. */
@@ -109,12 +110,24 @@ typedef struct plan_use {
     int slope[TERM_MAX_SLOTS]; /* of du/dt in the fluid: its gradient there, for the moving frame; else -1 */
 } plan_use;
 
+/* Where the unknowns of an item stand in its element vector and matrix: carrier by carrier as in its group, and
+ * there field by field and component by component as in the matrix, so that the columns of a carrier lie together.
+ */
+typedef struct element_layout {
+    int n, width;                       /* entries; columns of the element matrix: n up to whole vectors     */
+    int *at[SPACE_MAX_FIELDS];          /* [n_basis] first entry of each basis function, NULL: not used      */
+    uint8_t *field, *carrier;           /* [n] of each entry; the carrier by its number in the group         */
+    uint32_t coupled[SPACE_MAX_FIELDS]; /* bit g: rows of the field may have columns of field g      */
+} element_layout;
+
 /* Cells or facets with the same terms on them. */
 typedef struct assembly_class {
     int where;
     int64_t n_item;
     int32_t *cell, *facet;
-    int64_t *group;         /* of each item: the carriers that it adds to (see space.h)       */
+    int64_t *group; /* of each item: the carriers that it adds to (see space.h)       */
+    element_layout layout;
+    int32_t *dof;           /* [n_item][layout.n] unknown of each entry, -1: none (a wall)    */
     const near_pair *pair;  /* PF_PAIR: of each item */
     int follows;            /* items come with the bodies */
     const double *weight;   /* of such items: reference weights, [n_item][n_q]                 */
@@ -159,10 +172,12 @@ typedef struct assembly {
     struct workspace *work; /* [n_thread] */
     int n_use;              /* terms, each once, also those on points of several classes */
     term_use **use;
-    const body_points *bodies; /* of the last evaluation; NULL: none */
-    int bodies_stamp;          /* of those that the classes have their items from */
-    uint8_t *none_idle;        /* [n_dof] zero */
-    const uint8_t *idle;       /* [n_dof] of the last evaluation */
+    const body_points *bodies;   /* of the last evaluation; NULL: none */
+    int bodies_stamp;            /* of those that the classes have their items from */
+    uint8_t *none_idle;          /* [n_dof] zero */
+    const uint8_t *idle;         /* [n_dof] of the last evaluation */
+    int32_t *row_of, *column_of; /* [n_dof] of the matrix that is formed: row; column within those of its carrier;
+                                    -1: the unknown is prescribed, or off now */
     arena memory;
 } assembly;
 
@@ -230,8 +245,9 @@ typedef struct workspace {
     v8 *dof;                  /* nodal values of one field                               */
     const v8 *frame;          /* w and history of this batch, see assembly_class; NULL: none */
     v8 *in, *test, *block, *out, *jac, *room;
+    uint8_t *filled;     /* [block_size] 1: some term has that entry of D; others have no value */
     v8 *g;               /* one strip of D B_j                                      */
-    v8 *vec, *mat;       /* element vector and matrix of one field (pair)            */
+    v8 *vec, *mat;       /* element vector and matrix, see element_layout            */
     v8 *still, *unknown; /* zeros for a rate; the unknowns as the tests take them [test_size] */
     const v8 *unknown_of[ASSEMBLE_MAX_TESTS]; /* of each test of the class: there, or among the inputs */
     double (*power)[POWERS];                  /* [assembly.n_use] */
@@ -241,6 +257,13 @@ typedef struct workspace {
     arena memory;
 } workspace;
 
+/* layout.c */
+int layout_create(assembly *a, assembly_class *c, error *err);
+/* Unknowns of the items of a class. */
+int layout_items(const assembly *a, assembly_class *c, arena *memory, error *err);
+/* Adds the element vectors, the element matrices of the items of a batch (scatter.c). */
+void scatter_vector(const assembly_class *c, int64_t batch, const workspace *w, double *residual);
+void scatter_matrix(const assembly *a, const assembly_class *c, int64_t batch, const workspace *w, double *value);
 /* Gives the classes that follow the bodies their items, if these are others than before (items.c). */
 int items_take(assembly *a, const body_points *b, error *err);
 int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err);
@@ -255,7 +278,7 @@ void history_take(const assembly *a, const assembly_class *c, const assembly_sta
                   workspace *w);
 /* Its part of the Jacobian: d(du/dt) = shift du - w . grad du. */
 void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
-                      size_t ld, const double *velocity, double *block);
+                      size_t ld, const double *velocity, double *block, uint8_t *filled);
 /* Laplacians of basis functions at a point, one a lane: M : d^2 n - e . dn with reference derivatives, where
  * M = G G^T, G = dxi/dx, and e = G (M : d^2 x) makes up for the curvature of the mapping (second.c). */
 typedef struct laplacian {
@@ -281,9 +304,10 @@ void power_sum(const assembly *a, assembly_power *power);
 int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s);
 int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                    int with_matrix, int diagnose, workspace *w);
+/* All rows of the field: in the vector, and in the matrix with the columns of the fields that it may couple with.
+ */
 void element_vector(const assembly *a, const assembly_class *c, int field, workspace *w);
-/* 0 if the fields do not couple. */
-int element_matrix(const assembly *a, const assembly_class *c, int row_field, int col_field, workspace *w);
+void element_matrix(const assembly *a, const assembly_class *c, int field, workspace *w);
 
 /* Item of lane l of a batch; lanes past the end repeat the last one. */
 static inline int64_t assemble_item(const assembly_class *c, int64_t batch, int lane)

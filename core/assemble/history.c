@@ -109,7 +109,7 @@ void history_take(const assembly *a, const assembly_class *c, const assembly_sta
 }
 
 void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
-                      size_t ld, const double *velocity, double *block)
+                      size_t ld, const double *velocity, double *block, uint8_t *filled)
 {
     int oc = out->eval == PF_DIV ? dim : term_components(out->shape, dim), ic = term_components(in->shape, dim);
 
@@ -120,8 +120,10 @@ void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double
                 const double *restrict from = jac + (size_t)((out->eval == PF_DIV ? 0 : a) * ic + b) * ld;
                 const double *restrict w = velocity + (size_t)k * ld;
                 double *restrict to = block + (size_t)(row * n_trial + b * dim + k) * ld;
+                uint8_t *seen = &filled[row * n_trial + b * dim + k];
 
                 for (size_t i = 0; i < ld; i++)
-                    to[i] -= factor * w[i] * from[i];
+                    to[i] = (*seen ? to[i] : 0) - factor * w[i] * from[i];
+                *seen = 1;
             }
 }

@@ -9,21 +9,19 @@
 /* Nodal values of a field on the items of a batch, dof[comp][i]; zero where there is no carrier (a wall). */
 static void gather(const assembly *a, const assembly_class *c, int64_t batch, int field, const double *x, v8 *dof)
 {
-    const space *s = a->space;
-    int n = c->n_basis[s->field[field].order], n_comp = s->field[field].n_comp;
-    int on_cells = c->where != PF_CUT && s->field[field].order > 0;
+    const field_spec *f = &a->space->field[field];
+    const int *at = c->layout.at[field];
+    int n = c->n_basis[f->order];
 
     for (int l = 0; l < 8; l++) {
-        int64_t item = assemble_item(c, batch, l), group = c->group[item];
-        const int32_t *node = on_cells ? s->mesh->cell + (int64_t)c->cell[item] * s->mesh->type->n_node : NULL;
+        const int32_t *restrict of = c->dof + assemble_item(c, batch, l) * c->layout.n;
 
-        for (int i = 0; i < n; i++) {
-            int32_t carrier = on_cells ? node[assemble_local(s, field, i)] /* shows its master's unknowns */
-                                       : space_carrier(s, group, assemble_item_local(c, s, field, i));
+        for (int k = 0; k < f->n_comp; k++)
+            for (int i = 0; i < n; i++) {
+                int32_t d = of[at[i] + k];
 
-            for (int k = 0; k < n_comp; k++)
-                dof[k * n + i][l] = carrier < 0 ? 0 : x[s->first[field][carrier] + k];
-        }
+                dof[k * n + i][l] = d < 0 ? 0 : x[d];
+            }
     }
 }
 

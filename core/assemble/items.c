@@ -98,6 +98,8 @@ int items_take(assembly *a, const body_points *b, error *err)
             TRY(set_surface(a->space, c, b, err));
         else if (c->where == PF_CUT)
             TRY(set_ties(c, b, err));
+        if (c->follows)
+            TRY(layout_items(a, c, &c->item_memory, err));
     }
     a->bodies_stamp = b->stamp;
     return 0;

@@ -289,9 +289,11 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
     }
     c->n_slab = serial ? 1 : a->n_thread;
     TRY(place_rules(a, c, spec->rule, err));
+    TRY(layout_create(a, c, err));
     if (c->follows)
         return 0; /* its items come with the bodies */
     TRY(place_items(a, c, spec, err));
+    TRY(layout_items(a, c, &a->memory, err));
     return inputs_room(&a->memory, c, err);
 }
 
@@ -299,7 +301,7 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
 {
     const fe_cell *type = a->space->mesh->type;
     size_t in = 1, test = 1, block = 1, out = 1, jac = 1, room = 1, scratch = 1,
-           n = (size_t)assemble_padded(type->n_node);
+           n = (size_t)assemble_padded(type->n_node), entries = 1, width = 8, blocks = 1;
     size_t q = 1, basis[3] = {0}, dim = (size_t)type->dim;
     int laplace[3] = {0}, metric = 0;
 
@@ -311,6 +313,9 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
         in = max_size(in, c->in_size * nq);
         test = max_size(test, c->test_size * nq);
         block = max_size(block, c->block_size * nq);
+        blocks = max_size(blocks, c->block_size);
+        entries = max_size(entries, (size_t)c->layout.n);
+        width = max_size(width, (size_t)c->layout.width);
         out = max_size(out, c->out_size * nq);
         jac = max_size(jac, c->jac_size * nq);
         room = max_size(room, c->room_size * nq);
@@ -353,8 +358,9 @@ int plan_workspace(const assembly *a, workspace *w, error *err)
     ARENA_NEW(&w->memory, w->jac, jac, err);
     ARENA_NEW(&w->memory, w->room, room, err);
     ARENA_NEW(&w->memory, w->g, TEST_ROWS * ASSEMBLE_PAD * q, err);
-    ARENA_NEW(&w->memory, w->vec, n * dim, err);
-    ARENA_NEW(&w->memory, w->mat, n * n * dim * dim, err);
+    ARENA_NEW(&w->memory, w->vec, entries, err);
+    ARENA_NEW(&w->memory, w->mat, entries * width, err);
+    ARENA_NEW(&w->memory, w->filled, blocks, err);
     w->scratch = arena_alloc(&w->memory, scratch, 1);
     return w->scratch ? 0 : error_memory(err, "scratch", (double)scratch);
 }
