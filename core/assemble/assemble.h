@@ -12,12 +12,11 @@
 #ifndef ASSEMBLE_ASSEMBLE_H
 #define ASSEMBLE_ASSEMBLE_H
 
+#include "assemble/tensor.h"
 #include "base/value.h"
 #include "particle/particle.h"
 #include "space/space.h"
 #include "term/term.h"
-
-typedef double v8 __attribute__((vector_size(64)));
 
 enum {
     ASSEMBLE_MAX_INPUTS = 32,
@@ -144,6 +143,9 @@ typedef struct assembly_class {
     fe_rule rule[6]; /* [0], or one per local facet                              */
     double tangent[6][2][3];
     int orient[6];
+    tensor_rule
+        *tensor; /* points and bases are products of those on a line: sums by tensor.c; NULL: they are not */
+    int32_t *place[SPACE_MAX_FIELDS][SPACE_MAX_FIELDS]; /* of such a class: see tensor_matrix; NULL: no coupling */
     double *n_ref[6][3]; /* [order][q][i], basis of order 1 and 2 at the points       */
     double (*dn_ref[6][3])[3];
     double (*d2n_ref[6][3])[FE_SECOND]; /* where Laplacians are asked for, else NULL; order 2 is the mapping's */
@@ -174,6 +176,7 @@ typedef struct assembly {
     term_use **use;
     const body_points *bodies;   /* of the last evaluation; NULL: none */
     int bodies_stamp;            /* of those that the classes have their items from */
+    uint8_t *is_box;             /* [n_cell] 1: of a mesh of quads or hexes, sides along the axes */
     uint8_t *none_idle;          /* [n_dof] zero */
     const uint8_t *idle;         /* [n_dof] of the last evaluation */
     int32_t *row_of, *column_of; /* [n_dof] of the matrix that is formed: row; column within those of its carrier;
@@ -237,12 +240,18 @@ void assembly_destroy(assembly *a);
 typedef struct workspace {
     v8 *x_node; /* [dim][nodes]                                            */
     v8 *gap, *size[2], *other_density;
-    v8 *arm, *density;        /* [dim][n_q], [n_q] */
-    int32_t *id;              /* [n_q][8] */
-    v8 *w, *x, *normal, *h;   /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
-    v8 *metric;               /* [dim*dim][n_q], see pf_batch; NULL: no class has it */
-    v8 *basis[3][BASIS_ROWS]; /* [order][value, d/dx, d/dy, d/dz, Laplacian]: [i][n_q], i padded; NULL: not used */
+    v8 *arm, *density;      /* [dim][n_q], [n_q] */
+    int32_t *id;            /* [n_q][8] */
+    v8 *w, *x, *normal, *h; /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
+    v8 *metric;             /* [dim*dim][n_q], see pf_batch; NULL: no class has it */
+    /* Where the class has a tensor rule: dxi/dx [dim*dim][n_q], of a batch of boxes only its diagonal, the same at
+     * all points, in scale; room for numbers at points by reference derivatives, and of the stages. */
+    int boxes;
+    v8 scale[3], *inverse, *reference, *stages;
+    v8 *basis[3][BASIS_ROWS]; /* [order][value, d/dx, d/dy, d/dz, Laplacian]: [i][n_q], i padded; NULL: not used, or
+                               the class has a tensor rule */
     v8 *dof;                  /* nodal values of one field                               */
+    v8 *rate;                 /* [3 + 9][n_q] room: a field and its gradient */
     const v8 *frame;          /* w and history of this batch, see assembly_class; NULL: none */
     v8 *in, *test, *block, *out, *jac, *room;
     uint8_t *filled;     /* [block_size] 1: some term has that entry of D; others have no value */
@@ -257,8 +266,12 @@ typedef struct workspace {
     arena memory;
 } workspace;
 
+/* Marks the cells that are boxes (boxes.c). */
+int boxes_find(assembly *a, error *err);
 /* layout.c */
 int layout_create(assembly *a, assembly_class *c, error *err);
+/* Finds out whether the class has a tensor rule. */
+int layout_tensor(assembly *a, assembly_class *c, error *err);
 /* Unknowns of the items of a class. */
 int layout_items(const assembly *a, assembly_class *c, arena *memory, error *err);
 /* Adds the element vectors, the element matrices of the items of a batch (scatter.c). */
@@ -269,7 +282,7 @@ int items_take(assembly *a, const body_points *b, error *err);
 int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err);
 /* Room for the values of the case's functions at the points of a class. */
 int inputs_room(arena *memory, assembly_class *c, error *err);
-int plan_workspace(const assembly *a, workspace *w, error *err);
+int workspace_create(const assembly *a, workspace *w, error *err);
 int inputs_functions(assembly *a, assembly_class *c, workspace *w, double t, error *err);
 /* History along moving paths at all points near bodies; once per placement of these (history.c). */
 int history_update(const assembly *a, assembly_class *c, workspace *w, const moving_frame *f, error *err);
@@ -289,6 +302,12 @@ v8 laplacian_apply(const laplacian *p, int dim, const double dn[3], const double
 /* Component (a, b) of pf_batch.metric; inv = dxi/dx. */
 v8 metric_of(int dim, int simplex, v8 inv[3][3], int a, int b);
 void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
+/* inv = dxi/dx of j = dx/dxi; returns the determinant of j. */
+v8 geometry_inverse(int dim, v8 j[3][3], v8 inv[3][3]);
+/* The same where there is a tensor rule (boxes.c): without bases, with w->boxes, w->scale or w->inverse. */
+void geometry_tensor(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
+/* Nodal values w->dof of a field at the points; to [components of eval][n_q]. */
+void interpolate(const assembly_class *c, const field_spec *f, int dim, uint32_t eval, workspace *w, v8 *to);
 void inputs_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                    workspace *w);
 /* The unknowns that the rows of the class belong to, as their test functions enter (value or gradient). */
@@ -308,6 +327,13 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
  */
 void element_vector(const assembly *a, const assembly_class *c, int field, workspace *w);
 void element_matrix(const assembly *a, const assembly_class *c, int field, workspace *w);
+
+/* Sums of element_vector and element_matrix by tensor.c (element_tensor.c): values [components][n_q] and gradients
+ * of the rows, NULL: none; coefficients d[e][f] between components a and b. */
+void element_vector_tensor(const assembly_class *c, int field, const field_spec *f, const v8 *value, const v8 *grad,
+                           workspace *w);
+void element_matrix_tensor(const assembly_class *c, int row_order, int column_order,
+                           const v8 *d[TEST_ROWS][BASIS_ROWS], const int32_t *place, v8 *mat, workspace *w);
 
 /* Item of lane l of a batch; lanes past the end repeat the last one. */
 static inline int64_t assemble_item(const assembly_class *c, int64_t batch, int lane)

@@ -25,6 +25,14 @@ void element_vector(const assembly *a, const assembly_class *c, int field, works
     const int *at = c->layout.at[field];
     int dim = a->space->mesh->dim, nq = c->n_q, n = c->n_basis[f->order];
 
+    if (c->tensor) {
+        int value = find_basis(c->test, c->n_test, field, BASIS_VALUE);
+        int grad = find_basis(c->test, c->n_test, field, BASIS_GRAD);
+
+        element_vector_tensor(c, field, f, value < 0 ? NULL : w->test + c->test[value].at * (size_t)nq,
+                              grad < 0 ? NULL : w->test + c->test[grad].at * (size_t)nq, w);
+        return;
+    }
     for (int grad = 0; grad < 2; grad++) {
         int t = find_basis(c->test, c->n_test, field, grad ? BASIS_GRAD : BASIS_VALUE);
 
@@ -176,10 +184,12 @@ static void field_block(const assembly *as, const assembly_class *c, int row_fie
                               .row = p->at[row_field],
                               .column = p->at[col_field]};
 
-            if (coefficients(c, &pair, a, b, dim, w, d))
-                block_by_tiles(d, rf, cf, dim, c->n_q, &to, w);
-            else
+            if (!coefficients(c, &pair, a, b, dim, w, d))
                 clear_block(&to);
+            else if (c->tensor)
+                element_matrix_tensor(c, rf->order, cf->order, d, c->place[row_field][col_field], to.k, w);
+            else
+                block_by_tiles(d, rf, cf, dim, c->n_q, &to, w);
         }
 }
 

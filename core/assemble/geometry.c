@@ -4,8 +4,6 @@
 #include "assemble/assemble.h"
 
 #include <math.h>
-#include <string.h>
-
 static v8 v8_sqrt(v8 a)
 {
     for (int l = 0; l < 8; l++)
@@ -17,7 +15,6 @@ static v8 v8_sqrt(v8 a)
 static v8 mapping(int dim, int n_node, const v8 *x_node, const double (*dn)[3], v8 j[3][3], v8 inv[3][3])
 {
     const v8 zero = {0};
-    v8 det;
 
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++)
@@ -26,23 +23,7 @@ static v8 mapping(int dim, int n_node, const v8 *x_node, const double (*dn)[3], 
         for (int i = 0; i < n_node; i++)
             for (int b = 0; b < dim; b++)
                 j[a][b] += x_node[a * n_node + i] * dn[i][b];
-    if (dim == 2) {
-        det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
-        inv[0][0] = j[1][1] / det, inv[0][1] = -j[0][1] / det;
-        inv[1][0] = -j[1][0] / det, inv[1][1] = j[0][0] / det;
-        return det;
-    }
-    for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++) {
-            int p = (b + 1) % 3, q = (b + 2) % 3, r = (a + 1) % 3, t = (a + 2) % 3;
-
-            inv[a][b] = j[p][r] * j[q][t] - j[p][t] * j[q][r]; /* cofactor of (b, a) */
-        }
-    det = j[0][0] * inv[0][0] + j[0][1] * inv[1][0] + j[0][2] * inv[2][0];
-    for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++)
-            inv[a][b] /= det;
-    return det;
+    return geometry_inverse(dim, j, inv);
 }
 
 /* Area element and outward normal of a facet from the mapped tangents. */
@@ -311,6 +292,12 @@ void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, 
         if (c->any_laplace || c->any_metric)
             second_on_surface(a, c, batch, w);
         particle_slots(a, c, batch, w);
+        return;
+    }
+    if (c->tensor) {
+        geometry_tensor(a, c, batch, w);
+        if (c->where == PF_SOLID)
+            particle_slots(a, c, batch, w);
         return;
     }
     take_nodes(a, c, batch, w);

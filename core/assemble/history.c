@@ -15,8 +15,7 @@ static int frame_components(const space *s, const moving_frame *f)
 }
 
 /* w = 0 and the usual history at a point. */
-static void stay(const assembly *a, const assembly_class *c, const workspace *w, const moving_frame *f,
-                 int64_t item, int q, int lane, double *v)
+static void stay(const assembly *a, const assembly_class *c, const moving_frame *f, int64_t item, int q, double *v)
 {
     const space *s = a->space;
     const int32_t *node = s->mesh->cell + (int64_t)c->cell[item] * s->mesh->type->n_node;
@@ -30,7 +29,7 @@ static void stay(const assembly *a, const assembly_class *c, const workspace *w,
             const double *u = f->u + s->first[k][node[assemble_local(s, k, i)]];
 
             for (int j = 0; j < n_comp; j++)
-                v[at + j] += u[j] * w->basis[order][0][i * c->n_q + q][lane];
+                v[at + j] += u[j] * c->n_ref[0][order][q * c->n_basis[order] + i];
         }
         at += n_comp;
     }
@@ -72,7 +71,7 @@ int history_update(const assembly *a, assembly_class *c, workspace *w, const mov
                 for (int k = 0; k < dim; k++)
                     x[k] = w->x[k * nq + q][l];
                 if (!f->at(f->ctx, c->cell[item], x, v, v + dim))
-                    stay(a, c, w, f, item, q, l, v);
+                    stay(a, c, f, item, q, v);
                 for (int k = 0; k < n_comp; k++)
                     to[k * nq + q][l] = v[k];
             }
@@ -86,26 +85,21 @@ void history_take(const assembly *a, const assembly_class *c, const assembly_sta
                   workspace *w)
 {
     const field_spec *field = &a->space->field[in->field];
-    int dim = a->space->mesh->dim, nq = c->n_q, n = c->n_basis[field->order], at = dim;
+    int dim = a->space->mesh->dim, nq = c->n_q, at = dim;
+    v8 *dot = w->in + in->at * (size_t)nq, *value = w->rate, *grad = w->rate + in->n_comp * nq;
 
     for (int k = 0; k < in->field; k++)
         at += s->frame->fields >> k & 1 ? a->space->field[k].n_comp : 0;
-    for (int k = 0; k < in->n_comp; k++) {
-        v8 *restrict dot = w->in + (in->at + (size_t)k) * (size_t)nq;
+    interpolate(c, field, dim, PF_VALUE, w, value);
+    interpolate(c, field, dim, PF_GRAD, w, grad);
+    for (int k = 0; k < in->n_comp; k++)
+        for (int q = 0; q < nq; q++) {
+            v8 rate = w->frame[(at + k) * nq + q] + s->shift * value[k * nq + q];
 
-        memcpy(dot, w->frame + (at + k) * nq, (size_t)nq * sizeof *dot);
-        for (int i = 0; i < n; i++) {
-            v8 u = w->dof[k * n + i];
-
-            for (int q = 0; q < nq; q++) {
-                v8 rate = s->shift * w->basis[field->order][0][i * nq + q];
-
-                for (int d = 0; d < dim; d++)
-                    rate -= w->frame[d * nq + q] * w->basis[field->order][d + 1][i * nq + q];
-                dot[q] += u * rate;
-            }
+            for (int d = 0; d < dim; d++)
+                rate -= w->frame[d * nq + q] * grad[(k * dim + d) * nq + q];
+            dot[k * nq + q] = rate;
         }
-    }
 }
 
 void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,

@@ -72,6 +72,60 @@ int layout_create(assembly *a, assembly_class *c, error *err)
     return 0;
 }
 
+/* Points a direction if the points of a rule are products of those on a line, else 0. */
+static int points_a_direction(const fe_rule *r, int dim, double *x)
+{
+    int n = 1, step = 1;
+
+    while ((dim == 3 ? n * n * n : n * n) < r->n)
+        n++;
+    if (n > TENSOR_POINTS || (dim == 3 ? n * n * n : n * n) != r->n)
+        return 0;
+    for (int q = 0; q < n; q++)
+        x[q] = r->x[q][0];
+    for (int k = 0; k < dim; k++, step *= n)
+        for (int q = 0; q < r->n; q++)
+            if (r->x[q][k] != x[q / step % n])
+                return 0;
+    return n;
+}
+
+/* Where the matrix of two fields goes: see tensor_matrix. */
+static int place_pairs(assembly *a, assembly_class *c, int row, int column, error *err)
+{
+    const space *s = a->space;
+    const element_layout *p = &c->layout;
+    int i, j, row_order = s->field[row].order, column_order = s->field[column].order;
+    int n = tensor_pairs(s->mesh->dim, row_order, column_order, 0, &i, &j);
+
+    ARENA_NEW(&a->memory, c->place[row][column], n, err);
+    for (int k = 0; k < n; k++) {
+        tensor_pairs(s->mesh->dim, row_order, column_order, k, &i, &j);
+        c->place[row][column][k] = p->at[row][i] * p->width + p->at[column][j];
+    }
+    return 0;
+}
+
+int layout_tensor(assembly *a, assembly_class *c, error *err)
+{
+    const space *s = a->space;
+    int on_cells = c->where == PF_CELL || c->where == PF_FLUID || c->where == PF_SOLID;
+    double x[TENSOR_POINTS];
+    int n = !on_cells || c->any_laplace || s->mesh->type->simplex
+                ? 0
+                : points_a_direction(&c->rule[0], s->mesh->dim, x);
+
+    if (n == 0)
+        return 0;
+    ARENA_NEW(&a->memory, c->tensor, 1, err);
+    tensor_create(c->tensor, s->mesh->dim, n, x);
+    for (int f = 0; f < s->n_field; f++)
+        for (int g = 0; g < s->n_field; g++)
+            if (c->layout.coupled[f] >> g & 1)
+                TRY(place_pairs(a, c, f, g, err));
+    return 0;
+}
+
 int layout_items(const assembly *a, assembly_class *c, arena *memory, error *err)
 {
     const space *s = a->space;

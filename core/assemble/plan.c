@@ -290,77 +290,10 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
     c->n_slab = serial ? 1 : a->n_thread;
     TRY(place_rules(a, c, spec->rule, err));
     TRY(layout_create(a, c, err));
+    TRY(layout_tensor(a, c, err));
     if (c->follows)
         return 0; /* its items come with the bodies */
     TRY(place_items(a, c, spec, err));
     TRY(layout_items(a, c, &a->memory, err));
     return inputs_room(&a->memory, c, err);
-}
-
-int plan_workspace(const assembly *a, workspace *w, error *err)
-{
-    const fe_cell *type = a->space->mesh->type;
-    size_t in = 1, test = 1, block = 1, out = 1, jac = 1, room = 1, scratch = 1,
-           n = (size_t)assemble_padded(type->n_node), entries = 1, width = 8, blocks = 1;
-    size_t q = 1, basis[3] = {0}, dim = (size_t)type->dim;
-    int laplace[3] = {0}, metric = 0;
-
-    for (int i = 0; i < a->n_class; i++) {
-        const assembly_class *c = &a->class_[i];
-        size_t nq = (size_t)c->n_q;
-
-        q = max_size(q, nq);
-        in = max_size(in, c->in_size * nq);
-        test = max_size(test, c->test_size * nq);
-        block = max_size(block, c->block_size * nq);
-        blocks = max_size(blocks, c->block_size);
-        entries = max_size(entries, (size_t)c->layout.n);
-        width = max_size(width, (size_t)c->layout.width);
-        out = max_size(out, c->out_size * nq);
-        jac = max_size(jac, c->jac_size * nq);
-        room = max_size(room, c->room_size * nq);
-        scratch = max_size(scratch, c->scratch_size);
-        metric |= c->any_metric;
-        for (int order = 0; order < 3; order++) {
-            basis[order] = max_size(basis[order], (size_t)assemble_padded(c->n_basis[order]));
-            n = max_size(n, basis[order]);
-            laplace[order] |= c->laplace_used[order];
-        }
-    }
-    ARENA_NEW(&w->memory, w->x_node, n * dim, err);
-    ARENA_NEW(&w->memory, w->w, q, err);
-    ARENA_NEW(&w->memory, w->x, q * dim, err);
-    ARENA_NEW(&w->memory, w->normal, q * dim, err);
-    ARENA_NEW(&w->memory, w->h, q, err);
-    ARENA_NEW(&w->memory, w->arm, q * dim, err);
-    ARENA_NEW(&w->memory, w->density, q, err);
-    ARENA_NEW(&w->memory, w->gap, q, err);
-    for (int i = 0; i < 2; i++)
-        ARENA_NEW(&w->memory, w->size[i], q, err);
-    ARENA_NEW(&w->memory, w->other_density, q, err);
-    ARENA_NEW(&w->memory, w->id, q * PF_LANES, err);
-    for (int order = 0; order < 3; order++)
-        for (size_t k = 0; k <= dim; k++)
-            ARENA_NEW(&w->memory, w->basis[order][k], (basis[order] + 1) * q, err);
-    for (int order = 0; order < 3; order++)
-        if (laplace[order])
-            ARENA_NEW(&w->memory, w->basis[order][LAPLACE_ROW], (basis[order] + 1) * q, err);
-    if (metric)
-        ARENA_NEW(&w->memory, w->metric, q * dim * dim, err);
-    ARENA_NEW(&w->memory, w->dof, n * dim, err);
-    ARENA_NEW(&w->memory, w->in, in, err);
-    ARENA_NEW(&w->memory, w->test, test, err);
-    ARENA_NEW(&w->memory, w->unknown, test, err);
-    ARENA_NEW(&w->memory, w->still, q * 3, err);
-    ARENA_NEW(&w->memory, w->power, a->n_use + 1, err);
-    ARENA_NEW(&w->memory, w->block, block, err);
-    ARENA_NEW(&w->memory, w->out, out, err);
-    ARENA_NEW(&w->memory, w->jac, jac, err);
-    ARENA_NEW(&w->memory, w->room, room, err);
-    ARENA_NEW(&w->memory, w->g, TEST_ROWS * ASSEMBLE_PAD * q, err);
-    ARENA_NEW(&w->memory, w->vec, entries, err);
-    ARENA_NEW(&w->memory, w->mat, entries * width, err);
-    ARENA_NEW(&w->memory, w->filled, blocks, err);
-    w->scratch = arena_alloc(&w->memory, scratch, 1);
-    return w->scratch ? 0 : error_memory(err, "scratch", (double)scratch);
 }
