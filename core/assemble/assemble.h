@@ -71,6 +71,7 @@ typedef struct moving_frame {
     const uint8_t *cell; /* [n_cell] 1: there may be points with w != 0 in it */
     uint32_t fields;     /* bit f: field f has its history along the paths     */
     const double *u;     /* [n_dof] history at places */
+    int one_thread;      /* `at` must not run on two at once */
     void *ctx;
     /* At point x of a cell: w [dim]; history of each such field, one after the other.  0: w = 0. */
     int (*at)(void *ctx, int64_t cell, const double *x, double *w, double *history);
@@ -119,6 +120,13 @@ typedef struct element_layout {
     uint32_t coupled[SPACE_MAX_FIELDS]; /* bit g: rows of the field may have columns of field g      */
 } element_layout;
 
+/* Rows of a body that a slab sums on its own (shares.c): at a->share_sum + at first the residual, by entry of the
+ * element vector, then the matrix, whose rows of a carrier lie in one piece. */
+typedef struct body_share {
+    int32_t carrier;
+    int64_t at, first_value, n_value;
+} body_share;
+
 /* Cells or facets with the same terms on them. */
 typedef struct assembly_class {
     int where;
@@ -126,8 +134,13 @@ typedef struct assembly_class {
     int32_t *cell, *facet;
     int64_t *group; /* of each item: the carriers that it adds to (see space.h)       */
     element_layout layout;
-    int32_t *dof;           /* [n_item][layout.n] unknown of each entry, -1: none (a wall)    */
-    const near_pair *pair;  /* PF_PAIR: of each item */
+    int32_t *dof;          /* [n_item][layout.n] unknown of each entry, -1: none (a wall)    */
+    const near_pair *pair; /* PF_PAIR: of each item */
+    int serial;            /* one slab                                                      */
+    int32_t *source;       /* of each item: its number where items come from, as in body_points */
+    int n_share;
+    body_share *share;
+    int32_t *share_of;      /* [n_slab][n_body] 1 + number of the share, 0: adds directly; NULL: no shares */
     int follows;            /* items come with the bodies */
     const double *weight;   /* of such items: reference weights, [n_item][n_q]                 */
     const double (*ref)[3]; /* of such items: [n_item][n_q], see body_points */
@@ -172,7 +185,10 @@ typedef struct assembly {
     int n_thread, n_class;
     assembly_class *class_;
     struct workspace *work; /* [n_thread] */
-    int n_use;              /* terms, each once, also those on points of several classes */
+    double *share_sum;      /* see body_share */
+    int64_t share_room;
+    arena share_memory;
+    int n_use; /* terms, each once, also those on points of several classes */
     term_use **use;
     const body_points *bodies;   /* of the last evaluation; NULL: none */
     int bodies_stamp;            /* of those that the classes have their items from */
@@ -234,138 +250,5 @@ int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int 
 int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err);
 
 void assembly_destroy(assembly *a);
-
-/* --- between the files of this folder ------------------------------------------------- */
-
-typedef struct workspace {
-    v8 *x_node; /* [dim][nodes]                                            */
-    v8 *gap, *size[2], *other_density;
-    v8 *arm, *density;      /* [dim][n_q], [n_q] */
-    int32_t *id;            /* [n_q][8] */
-    v8 *w, *x, *normal, *h; /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
-    v8 *metric;             /* [dim*dim][n_q], see pf_batch; NULL: no class has it */
-    /* Where the class has a tensor rule: dxi/dx [dim*dim][n_q], of a batch of boxes only its diagonal, the same at
-     * all points, in scale; room for numbers at points by reference derivatives, and of the stages. */
-    int boxes;
-    v8 scale[3], *inverse, *reference, *stages;
-    v8 *basis[3][BASIS_ROWS]; /* [order][value, d/dx, d/dy, d/dz, Laplacian]: [i][n_q], i padded; NULL: not used, or
-                               the class has a tensor rule */
-    v8 *dof;                  /* nodal values of one field                               */
-    v8 *rate;                 /* [3 + 9][n_q] room: a field and its gradient */
-    const v8 *frame;          /* w and history of this batch, see assembly_class; NULL: none */
-    v8 *in, *test, *block, *out, *jac, *room;
-    uint8_t *filled;     /* [block_size] 1: some term has that entry of D; others have no value */
-    v8 *g;               /* one strip of D B_j                                      */
-    v8 *vec, *mat;       /* element vector and matrix, see element_layout            */
-    v8 *still, *unknown; /* zeros for a rate; the unknowns as the tests take them [test_size] */
-    const v8 *unknown_of[ASSEMBLE_MAX_TESTS]; /* of each test of the class: there, or among the inputs */
-    double (*power)[POWERS];                  /* [assembly.n_use] */
-    void *scratch;
-    term_report report;
-    int64_t failed_batch;
-    arena memory;
-} workspace;
-
-/* Marks the cells that are boxes (boxes.c). */
-int boxes_find(assembly *a, error *err);
-/* layout.c */
-int layout_create(assembly *a, assembly_class *c, error *err);
-/* Finds out whether the class has a tensor rule. */
-int layout_tensor(assembly *a, assembly_class *c, error *err);
-/* Unknowns of the items of a class. */
-int layout_items(const assembly *a, assembly_class *c, arena *memory, error *err);
-/* Adds the element vectors, the element matrices of the items of a batch (scatter.c). */
-void scatter_vector(const assembly_class *c, int64_t batch, const workspace *w, double *residual);
-void scatter_matrix(const assembly *a, const assembly_class *c, int64_t batch, const workspace *w, double *value);
-/* Gives the classes that follow the bodies their items, if these are others than before (items.c). */
-int items_take(assembly *a, const body_points *b, error *err);
-int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err);
-/* Room for the values of the case's functions at the points of a class. */
-int inputs_room(arena *memory, assembly_class *c, error *err);
-int workspace_create(const assembly *a, workspace *w, error *err);
-int inputs_functions(assembly *a, assembly_class *c, workspace *w, double t, error *err);
-/* History along moving paths at all points near bodies; once per placement of these (history.c). */
-int history_update(const assembly *a, assembly_class *c, workspace *w, const moving_frame *f, error *err);
-/* Of the batch: takes an input du/dt over to the moving paths; w->dof: nodal values of its field now. */
-void history_take(const assembly *a, const assembly_class *c, const assembly_state *s, const plan_input *in,
-                  workspace *w);
-/* Its part of the Jacobian: d(du/dt) = shift du - w . grad du. */
-void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
-                      size_t ld, const double *velocity, double *block, uint8_t *filled);
-/* Laplacians of basis functions at a point, one a lane: M : d^2 n - e . dn with reference derivatives, where
- * M = G G^T, G = dxi/dx, and e = G (M : d^2 x) makes up for the curvature of the mapping (second.c). */
-typedef struct laplacian {
-    v8 m[FE_SECOND], e[3];
-} laplacian;
-laplacian laplacian_of(int dim, int n_node, const v8 *x_node, const double (*d2n)[FE_SECOND], v8 inv[3][3]);
-v8 laplacian_apply(const laplacian *p, int dim, const double dn[3], const double d2n[FE_SECOND]);
-/* Component (a, b) of pf_batch.metric; inv = dxi/dx. */
-v8 metric_of(int dim, int simplex, v8 inv[3][3], int a, int b);
-void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
-/* inv = dxi/dx of j = dx/dxi; returns the determinant of j. */
-v8 geometry_inverse(int dim, v8 j[3][3], v8 inv[3][3]);
-/* The same where there is a tensor rule (boxes.c): without bases, with w->boxes, w->scale or w->inverse. */
-void geometry_tensor(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
-/* Nodal values w->dof of a field at the points; to [components of eval][n_q]. */
-void interpolate(const assembly_class *c, const field_spec *f, int dim, uint32_t eval, workspace *w, v8 *to);
-void inputs_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
-                   workspace *w);
-/* The unknowns that the rows of the class belong to, as their test functions enter (value or gradient). */
-void inputs_unknowns(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
-                     workspace *w);
-/* Adds the power of a term with outputs `out` to w->power (power.c); the outputs are overwritten. */
-int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, const plan_use *p, double factor,
-              const pf_batch *b, const double *const *in, double *const *out, workspace *w);
-void power_clear(assembly *a);
-/* The sums of all threads, in their order. */
-void power_sum(const assembly *a, assembly_power *power);
-/* Whether any term of the class takes part in this state. */
-int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s);
-int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
-                   int with_matrix, int diagnose, workspace *w);
-/* All rows of the field: in the vector, and in the matrix with the columns of the fields that it may couple with.
- */
-void element_vector(const assembly *a, const assembly_class *c, int field, workspace *w);
-void element_matrix(const assembly *a, const assembly_class *c, int field, workspace *w);
-
-/* Sums of element_vector and element_matrix by tensor.c (element_tensor.c): values [components][n_q] and gradients
- * of the rows, NULL: none; coefficients d[e][f] between components a and b. */
-void element_vector_tensor(const assembly_class *c, int field, const field_spec *f, const v8 *value, const v8 *grad,
-                           workspace *w);
-void element_matrix_tensor(const assembly_class *c, int row_order, int column_order,
-                           const v8 *d[TEST_ROWS][BASIS_ROWS], const int32_t *place, v8 *mat, workspace *w);
-
-/* Item of lane l of a batch; lanes past the end repeat the last one. */
-static inline int64_t assemble_item(const assembly_class *c, int64_t batch, int lane)
-{
-    int64_t first = c->batch[batch], last = c->batch[batch + 1] - 1, i = first + lane;
-
-    return i < last ? i : last;
-}
-
-static inline int assemble_padded(int n)
-{
-    return (n + ASSEMBLE_PAD - 1) / ASSEMBLE_PAD * ASSEMBLE_PAD;
-}
-
-/* Carrier of local node i of a field on a cell (index into the cell's carriers). */
-static inline int assemble_local(const space *s, int field, int i)
-{
-    const fe_cell *type = s->mesh->type;
-
-    if (s->field[field].order)
-        return s->field[field].order == 2 ? i : type->vertex[i];
-    return type->n_node + (s->field[field].support == PF_ON_PARTICLE ? s->any_problem : 0);
-}
-
-/* The same on an item of a class: a pair lists two bodies, a bad cell and its root the nodes of both. */
-static inline int assemble_item_local(const assembly_class *c, const space *s, int field, int i)
-{
-    int n = fe_n_basis(s->mesh->type, s->field[field].order);
-
-    if (c->where == PF_PAIR)
-        return i;
-    return i < n ? assemble_local(s, field, i) : s->mesh->type->n_node + assemble_local(s, field, i - n);
-}
 
 #endif

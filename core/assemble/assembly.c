@@ -2,11 +2,11 @@
  *
  * The loop over batches.  Slabs of cells go to threads; cells that touch two slabs come last, on one thread.  No
  * atomics: the order of additions depends on nothing but the number of threads. */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 #include <string.h>
 
-static int run_batch(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+static int run_batch(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch, int slab,
                      int diagnose, workspace *w, double *residual, double *value)
 {
     int on = !c->off;
@@ -28,9 +28,9 @@ static int run_batch(const assembly *a, const assembly_class *c, const assembly_
         if (value && c->layout.coupled[f])
             element_matrix(a, c, f, w);
     }
-    scatter_vector(c, batch, w, residual);
+    scatter_vector(a, c, batch, slab, w, residual);
     if (value)
-        scatter_matrix(a, c, batch, w, value);
+        scatter_matrix(a, c, batch, slab, w, value);
     return 0;
 }
 
@@ -71,37 +71,53 @@ static void number_columns(assembly *a)
     }
 }
 
+static int run_class(assembly *a, assembly_class *c, const assembly_state *s, double *residual, double *value,
+                     int diagnose, error *err)
+{
+    TRY(inputs_functions(a, c, &a->work[0], s->t, err));
+    TRY(history_update(a, c, s->frame, err));
+    TRY(shares_clear(a, c, value != NULL, err));
+    for (int i = 0; i < a->n_thread; i++)
+        a->work[i].failed_batch = -1;
+#pragma omp parallel for num_threads(c->n_slab) schedule(static, 1)
+    for (int slab = 0; slab < c->n_slab; slab++)
+        for (int64_t b = c->slab[slab]; b < c->slab[slab + 1]; b++)
+            if (run_batch(a, c, s, b, slab, diagnose, &a->work[slab], residual, value))
+                break;
+    for (int slab = 0; slab < c->n_slab; slab++)
+        if (a->work[slab].failed_batch >= 0)
+            return report(&a->work[slab], c, err);
+    shares_add(a, c, residual, value);
+    for (int64_t b = c->slab[c->n_slab]; b < c->n_batch; b++)
+        if (run_batch(a, c, s, b, c->n_slab, diagnose, &a->work[0], residual, value))
+            return report(&a->work[0], c, err);
+    return 0;
+}
+
+/* Zeroes the matrix, every thread a part of it. */
+static void clear_matrix(const assembly *a, double *value)
+{
+    int64_t n = a->space->row[a->space->n_free], per = (n + a->n_thread - 1) / a->n_thread;
+
+#pragma omp parallel for num_threads(a->n_thread) schedule(static, 1)
+    for (int i = 0; i < a->n_thread; i++)
+        if (i * per < n)
+            memset(value + i * per, 0, (size_t)(n - i * per < per ? n - i * per : per) * sizeof *value);
+}
+
 int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err)
 {
     TRY(items_take(a, s->bodies, err));
     memset(residual, 0, (size_t)a->space->n_dof * sizeof *residual);
     if (value) {
-        memset(value, 0, (size_t)a->space->row[a->space->n_free] * sizeof *value);
+        clear_matrix(a, value);
         number_columns(a);
     }
     if (s->power)
         power_clear(a);
-    for (int k = 0; k < a->n_class; k++) {
-        assembly_class *c = &a->class_[k];
-
-        if (!evaluate_any(a, c, s))
-            continue;
-        TRY(inputs_functions(a, c, &a->work[0], s->t, err));
-        TRY(history_update(a, c, &a->work[0], s->frame, err));
-        for (int i = 0; i < a->n_thread; i++)
-            a->work[i].failed_batch = -1;
-#pragma omp parallel for num_threads(c->n_slab) schedule(static, 1)
-        for (int slab = 0; slab < c->n_slab; slab++)
-            for (int64_t b = c->slab[slab]; b < c->slab[slab + 1]; b++)
-                if (run_batch(a, c, s, b, diagnose, &a->work[slab], residual, value))
-                    break;
-        for (int slab = 0; slab < c->n_slab; slab++)
-            if (a->work[slab].failed_batch >= 0)
-                return report(&a->work[slab], c, err);
-        for (int64_t b = c->slab[c->n_slab]; b < c->n_batch; b++)
-            if (run_batch(a, c, s, b, diagnose, &a->work[0], residual, value))
-                return report(&a->work[0], c, err);
-    }
+    for (int k = 0; k < a->n_class; k++)
+        if (evaluate_any(a, &a->class_[k], s))
+            TRY(run_class(a, &a->class_[k], s, residual, value, diagnose, err));
     close_idle(a->space, a->idle, residual, value);
     if (s->power)
         power_sum(a, s->power);
@@ -136,6 +152,7 @@ void assembly_destroy(assembly *a)
         arena_free(&a->class_[i].item_memory);
         arena_free(&a->class_[i].frame_memory);
     }
+    arena_free(&a->share_memory);
     arena_free(&a->memory);
     memset(a, 0, sizeof *a);
 }

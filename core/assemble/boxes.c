@@ -2,7 +2,7 @@
  *
  * Points of a batch where points and bases are products of those on a line.  Most such cells are boxes with sides
  * along the axes: dxi/dx is diagonal there, and the same at all points. */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 #include <float.h>
 #include <math.h>
@@ -147,7 +147,7 @@ void geometry_tensor(const assembly *a, const assembly_class *c, int64_t batch, 
         on[l] = !c->off || !c->off[cell];
         w->boxes &= a->is_box[cell];
         for (int q = 0; c->weight && q < nq; q++)
-            w->w[q][l] = c->weight[item * nq + q];
+            w->w[q][l] = c->weight[c->source[item] * nq + q];
     }
     for (int q = 0; q < nq; q++) {
         w->h[q] = h;

@@ -7,7 +7,7 @@
  *
  * Entries of D that no term filled (most of them in Navier-Stokes) are skipped.  The inner loop keeps a 3 x 3 tile
  * of K in registers. */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
  *
  * Element vectors and matrices where points and bases are products of those on a line: coefficients are turned to
  * reference derivatives at each point, d_ref^ef = w sum_kl dxi_e/dx_k d^kl dxi_f/dx_l, and summed by tensor.c. */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 /* dxi_b/dx_k times v, into (add: onto) to. */
 static void turn(const workspace *w, int dim, int nq, int b, int k, const v8 *restrict v, v8 *restrict to, int add)

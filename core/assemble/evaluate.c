@@ -4,7 +4,7 @@
  * derivatives per pair of test and trial function. */
 #include "base/process.h"
 #include "base/text.h"
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 #include <math.h>
 #include <stdio.h>

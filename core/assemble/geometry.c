@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Points of a batch: where they are, their weights, and the basis functions there. */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 #include <math.h>
+
 static v8 v8_sqrt(v8 a)
 {
     for (int l = 0; l < 8; l++)
@@ -84,7 +85,7 @@ static void points_of_pairs(const assembly *a, const assembly_class *c, int64_t 
     for (int k = 0; k <= ASSEMBLE_PAD; k++)
         w->basis[0][0][k] = zero + (k == 0 ? 1.0 : k == 1 ? -1.0 : 0.0);
     for (int l = 0; l < 8; l++) {
-        const near_pair *near = &c->pair[assemble_item(c, batch, l)];
+        const near_pair *near = &c->pair[c->source[assemble_item(c, batch, l)]];
 
         w->h[0][l] = near->h;
         w->gap[0][l] = near->gap;
@@ -135,18 +136,18 @@ static void points_of_surface(const assembly *a, const assembly_class *c, int64_
     int dim = m->dim, nq = c->n_q;
 
     for (int l = 0; l < 8; l++) {
-        int64_t item = assemble_item(c, batch, l), cell = c->cell[item];
+        int64_t item = assemble_item(c, batch, l), cell = c->cell[item], from = c->source[item];
 
         for (int q = 0; q < nq; q++) {
-            const double *xi = c->ref[item * nq + q];
+            const double *xi = c->ref[from * nq + q];
             double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], x[3], inv[3][3];
 
             map_point(m, cell, xi, x, inv);
-            w->w[q][l] = c->weight[item * nq + q];
+            w->w[q][l] = c->weight[from * nq + q];
             w->h[q][l] = m->h[cell];
             for (int k = 0; k < dim; k++) {
                 w->x[k * nq + q][l] = x[k];
-                w->normal[k * nq + q][l] = c->normal[item * nq + q][k];
+                w->normal[k * nq + q][l] = c->normal[from * nq + q][k];
             }
             for (int order = 0; order < 3; order++) {
                 int n_basis = c->order_used[order] ? fe_n_basis(type, order) : 0;
@@ -178,7 +179,7 @@ static void second_on_surface(const assembly *a, const assembly_class *c, int64_
     for (int l = 0; l < 8; l++)
         for (int q = 0; q < nq; q++) {
             int64_t item = assemble_item(c, batch, l);
-            const double *xi = c->ref[item * nq + q];
+            const double *xi = c->ref[c->source[item] * nq + q];
             double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], d2n[FE_MAX_NODES][FE_SECOND], x[3], at[3][3];
             v8 inv[3][3];
             laplacian p;
@@ -215,7 +216,7 @@ static void points_of_roots(const assembly *a, const assembly_class *c, int64_t 
 
     for (int l = 0; l < 8; l++)
         for (int q = 0; q < nq; q++) {
-            int64_t item = assemble_item(c, batch, l);
+            int64_t item = c->source[assemble_item(c, batch, l)];
 
             w->w[q][l] *= c->weight[item];
             for (int order = 1; order < 3; order++) {
@@ -319,7 +320,7 @@ void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, 
         }
         if (c->weight && c->where != PF_CUT)
             for (int l = 0; l < 8; l++)
-                w->w[q][l] = det[l] * c->weight[assemble_item(c, batch, l) * nq + q];
+                w->w[q][l] = det[l] * c->weight[c->source[assemble_item(c, batch, l)] * nq + q];
         else
             w->w[q] = det * c->rule[f].w[q] * on;
         w->h[q] = h;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * du/dt along paths that follow moving bodies (see moving_frame). */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
+#include <omp.h>
 #include <string.h>
 
 static int frame_components(const space *s, const moving_frame *f)
@@ -35,10 +36,31 @@ static void stay(const assembly *a, const assembly_class *c, const moving_frame 
     }
 }
 
-int history_update(const assembly *a, assembly_class *c, workspace *w, const moving_frame *f, error *err)
+/* Velocity of the path and history at the points of a batch. */
+static void take_batch(const assembly *a, const assembly_class *c, workspace *w, const moving_frame *f, int64_t b,
+                       int n_comp)
+{
+    int dim = a->space->mesh->dim, nq = c->n_q;
+    v8 *to = c->frame + c->frame_at[b];
+
+    geometry_points(a, c, b, w);
+    for (int64_t item = c->batch[b]; item < c->batch[b + 1]; item++)
+        for (int q = 0, l = (int)(item - c->batch[b]); q < nq; q++) {
+            double x[3] = {0}, v[3 + VALUE_MAX * SPACE_MAX_FIELDS];
+
+            for (int k = 0; k < dim; k++)
+                x[k] = w->x[k * nq + q][l];
+            if (!f->at(f->ctx, c->cell[item], x, v, v + dim))
+                stay(a, c, f, item, q, v);
+            for (int k = 0; k < n_comp; k++)
+                to[k * nq + q][l] = v[k];
+        }
+}
+
+int history_update(const assembly *a, assembly_class *c, const moving_frame *f, error *err)
 {
     const space *s = a->space;
-    int dim = s->mesh->dim, nq = c->n_q, n_comp;
+    int nq = c->n_q, n_comp;
     int64_t n = 0;
 
     if (!f || c->where != PF_FLUID || c->frame_stamp == f->stamp)
@@ -56,27 +78,10 @@ int history_update(const assembly *a, assembly_class *c, workspace *w, const mov
         n += near;
     }
     ARENA_NEW(&c->frame_memory, c->frame, n * n_comp * nq + 1, err);
-    for (int64_t b = 0; b < c->n_batch; b++) {
-        v8 *to = c->frame + c->frame_at[b];
-
-        if (c->frame_at[b] < 0)
-            continue;
-        geometry_points(a, c, b, w);
-        for (int l = 0; l < 8; l++) {
-            int64_t item = c->batch[b] + l;
-
-            for (int q = 0; item < c->batch[b + 1] && q < nq; q++) {
-                double x[3] = {0}, v[3 + VALUE_MAX * SPACE_MAX_FIELDS];
-
-                for (int k = 0; k < dim; k++)
-                    x[k] = w->x[k * nq + q][l];
-                if (!f->at(f->ctx, c->cell[item], x, v, v + dim))
-                    stay(a, c, f, item, q, v);
-                for (int k = 0; k < n_comp; k++)
-                    to[k * nq + q][l] = v[k];
-            }
-        }
-    }
+#pragma omp parallel for num_threads(f->one_thread ? 1 : a->n_thread) schedule(dynamic, 4)
+    for (int64_t b = 0; b < c->n_batch; b++)
+        if (c->frame_at[b] >= 0)
+            take_batch(a, c, &a->work[omp_get_thread_num()], f, b, n_comp);
     c->frame_stamp = f->stamp;
     return 0;
 }

@@ -2,7 +2,7 @@
  *
  * What terms read at the points of a batch: fields, interpolated from nodal values, and the case's own functions.
  */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 /* Nodal values of a field on the items of a batch, dof[comp][i]; zero where there is no carrier (a wall). */
 static void gather(const assembly *a, const assembly_class *c, int64_t batch, int field, const double *x, v8 *dof)

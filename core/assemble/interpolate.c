@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * A field at the points of a batch from its nodal values. */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 #include <string.h>
 

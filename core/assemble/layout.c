@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * The order of unknowns in element vectors and matrices, and which unknowns these are on each item. */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 /* Carriers of an item. */
 static int group_size(const assembly_class *c, const space *s)

@@ -5,7 +5,7 @@
  * A row of the element matrices of a batch has a vector of 8 lanes for every column.  Blocks of 8 x 8 are
  * transposed, so that each item has its row in one piece; what lies side by side in the matrix, too, is then added
  * as a run. */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 #include <string.h>
 
@@ -15,15 +15,22 @@ typedef double v8_anywhere __attribute__((vector_size(64), aligned(8)));
 typedef double v4_anywhere __attribute__((vector_size(32), aligned(8)));
 typedef double v2_anywhere __attribute__((vector_size(16), aligned(8)));
 
-void scatter_vector(const assembly_class *c, int64_t batch, const workspace *w, double *residual)
+static int is_of_body(const assembly *a, const assembly_class *c, int entry)
+{
+    return a->space->field[c->layout.field[entry]].support == PF_ON_PARTICLE;
+}
+
+void scatter_vector(const assembly *a, const assembly_class *c, int64_t batch, int slab, const workspace *w,
+                    double *residual)
 {
     for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++) {
         const int32_t *restrict dof = c->dof + item * c->layout.n;
+        const body_share *share = shares_at(a, c, slab, item);
         int l = (int)(item - c->batch[batch]);
 
         for (int e = 0; e < c->layout.n; e++)
             if (dof[e] >= 0)
-                residual[dof[e]] += w->vec[e][l];
+                *(share && is_of_body(a, c, e) ? &a->share_sum[share->at + e] : &residual[dof[e]]) += w->vec[e][l];
     }
 }
 
@@ -114,6 +121,7 @@ static inline void add_run(double *restrict to, const double *restrict from, int
 
 /* Where the rows of an item go. */
 typedef struct lane {
+    const body_share *share;
     int n_segment, n_run;
     segment segment[MOST_SEGMENTS];
     run run[MOST_SEGMENTS];
@@ -141,23 +149,31 @@ static void scatter_rows(const assembly *a, const assembly_class *c, int64_t bat
             int64_t group = c->group[c->batch[batch] + l];
             int32_t d = dof[l * p->n + r], at = d < 0 ? -1 : a->row_of[d];
 
+            double *to = at < 0 ? NULL : value + s->row[at];
+
+            if (to && lanes[l].share && is_of_body(a, c, r))
+                to = a->share_sum + lanes[l].share->at + p->n + s->row[at] - lanes[l].share->first_value;
             if (p->carrier[r] != carrier)
                 lanes[l].n_run =
                     find_runs(lanes[l].segment, lanes[l].n_segment,
                               space_pair(s, group) + p->carrier[r] * space_group_size(s, group), lanes[l].run);
-            for (int k = 0; at >= 0 && k < lanes[l].n_run; k++) {
+            for (int k = 0; to && k < lanes[l].n_run; k++) {
                 const run *u = &lanes[l].run[k];
 
-                add_run(value + s->row[at] + u->to, (const double *)row + l * p->width + u->from, u->n);
+                add_run(to + u->to, (const double *)row + l * p->width + u->from, u->n);
             }
         }
         carrier = p->carrier[r];
     }
 }
 
-void scatter_matrix(const assembly *a, const assembly_class *c, int64_t batch, const workspace *w, double *value)
+void scatter_matrix(const assembly *a, const assembly_class *c, int64_t batch, int slab, const workspace *w,
+                    double *value)
 {
     lane lanes[PF_LANES];
+
+    for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++)
+        lanes[item - c->batch[batch]].share = shares_at(a, c, slab, item);
 
     for (int f = 0; f < a->space->n_field; f++)
         if (c->layout.coupled[f])

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Room of a thread: for the largest batch of any class. */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 /* Numbers of v8, of bytes in `scratch`, of unknowns and columns in `entries` and `width`. */
 typedef struct sizes {

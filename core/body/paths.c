@@ -324,6 +324,8 @@ int paths_create(bodies *b, error *err)
     b->paths.frame.cell = b->paths.cell;
     b->paths.frame.ctx = b;
     b->paths.frame.at = paths_at;
+    for (int k = 0; k < b->n; k++) /* Lua has one thread */
+        b->paths.frame.one_thread |= b->spec[k].shape.kind == SHAPE_DISTANCE;
     return 0;
 }
 
