@@ -149,8 +149,10 @@ typedef struct assembly_class {
     int64_t n_batch;
     int64_t *batch; /* first item of each batch, [n_batch + 1]                  */
     int n_slab;
-    int64_t *slab; /* first batch of each slab, [n_slab + 2]; the last range is
-                      the interface, done after the slabs by one thread         */
+    int64_t *slab;        /* first batch of each slab, [n_slab + 2]; the last range is
+                             the interface, done after the slabs by one thread         */
+    int64_t *first_fresh; /* of each batch, [n_batch + 1], in: */
+    int32_t *fresh;       /* nodes that no earlier batch has; NULL: not all nodes of the mesh are in some batch */
     int n_q;
     int n_basis[3];  /* basis functions of a field of each order on an item: of two cells, two bodies */
     fe_rule rule[6]; /* [0], or one per local facet                              */
@@ -192,6 +194,7 @@ typedef struct assembly {
     term_use **use;
     const body_points *bodies;   /* of the last evaluation; NULL: none */
     int bodies_stamp;            /* of those that the classes have their items from */
+    int clears;                  /* batches of the first class zero the rows that they come to first */
     uint8_t *is_box;             /* [n_cell] 1: of a mesh of quads or hexes, sides along the axes */
     uint8_t *none_idle;          /* [n_dof] zero */
     const uint8_t *idle;         /* [n_dof] of the last evaluation */

@@ -11,6 +11,8 @@ static int run_batch(const assembly *a, const assembly_class *c, const assembly_
 {
     int on = !c->off;
 
+    if (value && a->clears && c == &a->class_[0])
+        fresh_clear(a, c, batch, value);
     for (int64_t i = c->batch[batch]; i < c->batch[batch + 1]; i++)
         on |= c->off && !c->off[c->cell[i]];
     if (!on)
@@ -94,23 +96,12 @@ static int run_class(assembly *a, assembly_class *c, const assembly_state *s, do
     return 0;
 }
 
-/* Zeroes the matrix, every thread a part of it. */
-static void clear_matrix(const assembly *a, double *value)
-{
-    int64_t n = a->space->row[a->space->n_free], per = (n + a->n_thread - 1) / a->n_thread;
-
-#pragma omp parallel for num_threads(a->n_thread) schedule(static, 1)
-    for (int i = 0; i < a->n_thread; i++)
-        if (i * per < n)
-            memset(value + i * per, 0, (size_t)(n - i * per < per ? n - i * per : per) * sizeof *value);
-}
-
 int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err)
 {
     TRY(items_take(a, s->bodies, err));
     memset(residual, 0, (size_t)a->space->n_dof * sizeof *residual);
     if (value) {
-        clear_matrix(a, value);
+        a->clears = fresh_begin(a, s, value);
         number_columns(a);
     }
     if (s->power)

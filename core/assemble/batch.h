@@ -43,6 +43,11 @@ int shares_find(assembly *a, assembly_class *c, arena *memory, error *err);
 int shares_clear(assembly *a, assembly_class *c, int with_matrix, error *err);
 const body_share *shares_at(const assembly *a, const assembly_class *c, int slab, int64_t item);
 void shares_add(const assembly *a, const assembly_class *c, double *residual, double *value);
+/* fresh.c: lists the nodes that each batch comes to first; zeroes the matrix but for what the batches of the first
+ * class zero then, returns whether they do; zeroes the rows of the nodes that are new in a batch. */
+int fresh_find(const assembly *a, assembly_class *c, arena *memory, error *err);
+int fresh_begin(const assembly *a, const assembly_state *s, double *value);
+void fresh_clear(const assembly *a, const assembly_class *c, int64_t batch, double *value);
 /* Marks the cells that are boxes (boxes.c). */
 int boxes_find(assembly *a, error *err);
 /* layout.c */

@@ -19,6 +19,7 @@ int items_order(assembly *a, assembly_class *c, arena *memory, error *err)
 {
     TRY(slabs_make(a, c, memory, err));
     TRY(layout_items(a, c, memory, err));
+    TRY(fresh_find(a, c, memory, err));
     return inputs_room(memory, c, err);
 }
 

@@ -57,10 +57,12 @@ static void form(const char *text, const char *formulation, int n_thread, formed
     f->value = calloc((size_t)f->entries, sizeof *f->value);
     fill_random(x, f->n, 1);
     fill_random(dot, f->n, 2);
-    for (int round = 0; round < 2; round++) { /* the second finds all room in use */
+    for (int round = 0; round < 2; round++) { /* the second finds all room in use, and both old numbers */
         assembly_state s = {
             .dt = 0.01, .shift = 150, .x = x, .dot = dot, .old = x, .bodies = problem_points(&k->p)};
 
+        for (int64_t i = 0; i < f->entries; i++)
+            f->value[i] = NAN;
         if (assembly_run(&k->p.system.assembly, &s, f->residual, f->value, 1, &k->err))
             fail_msg("%s", k->err.text);
     }
