@@ -119,13 +119,42 @@ static inline void add_run(double *restrict to, const double *restrict from, int
         *to += *from;
 }
 
-/* Where the rows of an item go. */
+/* Where the rows of an item go.  Cells of a regular mesh have the same runs, which are then those of the first. */
 typedef struct lane {
     const body_share *share;
-    int n_segment, n_run;
+    const int32_t *pair; /* of its group */
+    int size, n_segment, n_run;
+    const run *runs;
     segment segment[MOST_SEGMENTS];
-    run run[MOST_SEGMENTS];
+    run own[MOST_SEGMENTS];
 } lane;
+
+static void start_lane(const assembly *a, const assembly_class *c, int slab, int64_t item, lane *l)
+{
+    l->share = shares_at(a, c, slab, item);
+    l->pair = space_pair(a->space, c->group[item]);
+    l->size = space_group_size(a->space, c->group[item]);
+}
+
+/* Runs in the rows of a carrier. */
+static void take_runs(lane *lanes, int n_lane, int carrier)
+{
+    for (int l = 0; l < n_lane; l++) {
+        lane *k = &lanes[l];
+        const lane *first = &lanes[0];
+
+        if (l && k->n_segment == first->n_segment && k->size == first->size &&
+            !memcmp(k->pair + carrier * k->size, first->pair + carrier * k->size,
+                    (size_t)k->size * sizeof *k->pair) &&
+            !memcmp(k->segment, first->segment, (size_t)k->n_segment * sizeof *k->segment)) {
+            k->runs = first->runs;
+            k->n_run = first->n_run;
+        } else {
+            k->n_run = find_runs(k->segment, k->n_segment, k->pair + carrier * k->size, k->own);
+            k->runs = k->own;
+        }
+    }
+}
 
 /* The rows of field f, all carriers. */
 static void scatter_rows(const assembly *a, const assembly_class *c, int64_t batch, int f, const workspace *w,
@@ -133,7 +162,8 @@ static void scatter_rows(const assembly *a, const assembly_class *c, int64_t bat
 {
     const space *s = a->space;
     const element_layout *p = &c->layout;
-    int n_lane = (int)(c->batch[batch + 1] - c->batch[batch]), carrier = -1;
+    int n_lane = (int)(c->batch[batch + 1] - c->batch[batch]), carrier = -1, width = p->width;
+    int of_body = s->field[f].support == PF_ON_PARTICLE;
     const int32_t *dof = c->dof + c->batch[batch] * p->n;
 
     for (int l = 0; l < n_lane; l++)
@@ -143,27 +173,23 @@ static void scatter_rows(const assembly *a, const assembly_class *c, int64_t bat
 
         if (p->field[r] != f)
             continue;
-        for (int k = 0; k < p->width / 8; k++)
-            transpose(w->mat + r * p->width + 8 * k, row + k, p->width / 8);
-        for (int l = 0; l < n_lane; l++) {
-            int64_t group = c->group[c->batch[batch] + l];
-            int32_t d = dof[l * p->n + r], at = d < 0 ? -1 : a->row_of[d];
-
-            double *to = at < 0 ? NULL : value + s->row[at];
-
-            if (to && lanes[l].share && is_of_body(a, c, r))
-                to = a->share_sum + lanes[l].share->at + p->n + s->row[at] - lanes[l].share->first_value;
-            if (p->carrier[r] != carrier)
-                lanes[l].n_run =
-                    find_runs(lanes[l].segment, lanes[l].n_segment,
-                              space_pair(s, group) + p->carrier[r] * space_group_size(s, group), lanes[l].run);
-            for (int k = 0; to && k < lanes[l].n_run; k++) {
-                const run *u = &lanes[l].run[k];
-
-                add_run(to + u->to, (const double *)row + l * p->width + u->from, u->n);
-            }
-        }
+        for (int k = 0; k < width / 8; k++)
+            transpose(w->mat + r * width + 8 * k, row + k, width / 8);
+        if (p->carrier[r] != carrier)
+            take_runs(lanes, n_lane, p->carrier[r]);
         carrier = p->carrier[r];
+        for (int l = 0; l < n_lane; l++) {
+            int32_t d = dof[l * p->n + r], at = d < 0 ? -1 : a->row_of[d];
+            const double *from = (const double *)row + l * width;
+            double *to = value;
+
+            if (at < 0)
+                continue;
+            if (lanes[l].share && of_body)
+                to = a->share_sum + lanes[l].share->at + p->n - lanes[l].share->first_value;
+            for (const run *u = lanes[l].runs; u < lanes[l].runs + lanes[l].n_run; u++)
+                add_run(to + s->row[at] + u->to, from + u->from, u->n);
+        }
     }
 }
 
@@ -173,8 +199,7 @@ void scatter_matrix(const assembly *a, const assembly_class *c, int64_t batch, i
     lane lanes[PF_LANES];
 
     for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++)
-        lanes[item - c->batch[batch]].share = shares_at(a, c, slab, item);
-
+        start_lane(a, c, slab, item, &lanes[item - c->batch[batch]]);
     for (int f = 0; f < a->space->n_field; f++)
         if (c->layout.coupled[f])
             scatter_rows(a, c, batch, f, w, lanes, value);
