@@ -195,7 +195,6 @@ typedef struct assembly {
     const body_points *bodies;   /* of the last evaluation; NULL: none */
     int bodies_stamp;            /* of those that the classes have their items from */
     int clears;                  /* batches of the first class zero the rows that they come to first */
-    uint8_t *is_box;             /* [n_cell] 1: of a mesh of quads or hexes, sides along the axes */
     uint8_t *none_idle;          /* [n_dof] zero */
     const uint8_t *idle;         /* [n_dof] of the last evaluation */
     int32_t *row_of, *column_of; /* [n_dof] of the matrix that is formed: row; column within those of its carrier;

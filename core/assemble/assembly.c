@@ -127,7 +127,6 @@ int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int 
     ARENA_NEW(&a->memory, a->column_of, s->n_dof + 1, err);
     ARENA_NEW(&a->memory, a->use, (int64_t)n_spec * ASSEMBLE_MAX_USES + 1, err);
     a->idle = a->none_idle;
-    TRY(boxes_find(a, err));
     for (a->n_class = 0; a->n_class < n_spec; a->n_class++)
         TRY(plan_create(a, &a->class_[a->n_class], &spec[a->n_class], err));
     for (int i = 0; i < a->n_thread; i++)

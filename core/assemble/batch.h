@@ -48,8 +48,6 @@ void shares_add(const assembly *a, const assembly_class *c, double *residual, do
 int fresh_find(const assembly *a, assembly_class *c, arena *memory, error *err);
 int fresh_begin(const assembly *a, const assembly_state *s, double *value);
 void fresh_clear(const assembly *a, const assembly_class *c, int64_t batch, double *value);
-/* Marks the cells that are boxes (boxes.c). */
-int boxes_find(assembly *a, error *err);
 /* layout.c */
 int layout_create(assembly *a, assembly_class *c, error *err);
 /* Finds out whether the class has a tensor rule. */

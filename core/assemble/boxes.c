@@ -4,39 +4,6 @@
  * along the axes: dxi/dx is diagonal there, and the same at all points. */
 #include "assemble/batch.h"
 
-#include <float.h>
-#include <math.h>
-
-/* Whether all nodes lie where those of a box do, as exactly as their coordinates can say. */
-static int is_box(const mesh *m, int64_t cell)
-{
-    const int32_t *node = m->cell + cell * m->type->n_node;
-
-    for (int k = 0; k < m->dim; k++) {
-        double low = m->x[(int64_t)node[0] * m->dim + k];
-        double high = m->x[(int64_t)node[m->type->n_node - 1] * m->dim + k];
-        double bound = 4 * DBL_EPSILON * fmax(fabs(low), fabs(high));
-
-        for (int i = 0; i < m->type->n_node; i++) {
-            double at = 0.5 * ((1 - m->type->x[i][k]) * low + (1 + m->type->x[i][k]) * high);
-
-            if (!(fabs(m->x[(int64_t)node[i] * m->dim + k] - at) <= bound))
-                return 0;
-        }
-    }
-    return 1;
-}
-
-int boxes_find(assembly *a, error *err)
-{
-    const mesh *m = a->space->mesh;
-
-    ARENA_NEW(&a->memory, a->is_box, m->n_cell + 1, err);
-    for (int64_t e = 0; e < m->n_cell && !m->type->simplex; e++)
-        a->is_box[e] = (uint8_t)is_box(m, e);
-    return 0;
-}
-
 v8 geometry_inverse(int dim, v8 j[3][3], v8 inv[3][3])
 {
     v8 det;
@@ -145,7 +112,7 @@ void geometry_tensor(const assembly *a, const assembly_class *c, int64_t batch, 
 
         h[l] = m->h[cell];
         on[l] = !c->off || !c->off[cell];
-        w->boxes &= a->is_box[cell];
+        w->boxes &= m->is_box[cell];
         for (int q = 0; c->weight && q < nq; q++)
             w->w[q][l] = c->weight[c->source[item] * nq + q];
     }
