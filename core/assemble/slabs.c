@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEAST_BATCHES = 2 }; /* a slab: fewer are not worth a thread */
+enum { LEAST_BATCHES = 8 }; /* a slab: fewer are not worth waiting for a thread */
 
 /* An item and its place in the order of the class. */
 typedef struct place {

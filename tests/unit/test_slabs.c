@@ -16,7 +16,7 @@
 #include <string.h>
 
 static const char disks[] = "case 'Disks'\n"
-                            "mesh { box = {{0, 0}, {1, 2}}, cells = {16, 32} }\n"
+                            "mesh { box = {{0, 0}, {1, 2}}, cells = {20, 40} }\n"
                             "fluid { density = 1, viscosity = 0.1, gravity = {0, -981} }\n"
                             "term 'continuity' {}\n term 'momentum' {}\n particulate('%s')\n"
                             "term 'contact.repulsion' { range = 0.1 }\n"
@@ -36,6 +36,7 @@ static const char sphere[] = "case 'Sphere'\n"
 
 typedef struct formed {
     int64_t n, entries;
+    int slabs, shares; /* of any class that follows the bodies; of rows of bodies */
     double *residual, *value;
 } formed;
 
@@ -66,6 +67,13 @@ static void form(const char *text, const char *formulation, int n_thread, formed
         if (assembly_run(&k->p.system.assembly, &s, f->residual, f->value, 1, &k->err))
             fail_msg("%s", k->err.text);
     }
+    f->slabs = f->shares = 0;
+    for (int i = 0; i < k->p.system.assembly.n_class; i++) {
+        const assembly_class *c = &k->p.system.assembly.class_[i];
+
+        f->slabs = c->follows && c->n_slab > f->slabs ? c->n_slab : f->slabs;
+        f->shares += c->n_share;
+    }
     free(x);
     free(dot);
     close_case(k);
@@ -87,6 +95,7 @@ static double difference(const double *a, const double *b, int64_t n)
 static void check(const char *text, const char *formulation)
 {
     formed one, many, again;
+    int slabs = 0, shares = 0;
 
     form(text, formulation, 1, &one);
     for (int n = 2; n < 6; n++) {
@@ -94,6 +103,8 @@ static void check(const char *text, const char *formulation)
 
         form(text, formulation, n, &many);
         form(text, formulation, n, &again);
+        slabs = many.slabs > slabs ? many.slabs : slabs;
+        shares += many.shares;
         assert_true(many.n == one.n && many.entries == one.entries);
         assert_memory_equal(many.residual, again.residual, (size_t)many.n * sizeof *many.residual);
         assert_memory_equal(many.value, again.value, (size_t)many.entries * sizeof *many.value);
@@ -103,6 +114,8 @@ static void check(const char *text, const char *formulation)
         assert_true(r < 1e-13 && v < 1e-13);
         free(many.residual), free(many.value), free(again.residual), free(again.value);
     }
+    print_message("# %s: %d slabs near bodies, %d of them at the body of another\n", formulation, slabs, shares);
+    assert_true(slabs > 1 && shares > 0);
     free(one.residual), free(one.value);
 }
 
