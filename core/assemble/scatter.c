@@ -122,6 +122,7 @@ static inline void add_run(double *restrict to, const double *restrict from, int
 /* Where the rows of an item go.  Cells of a regular mesh have the same runs, which are then those of the first. */
 typedef struct lane {
     const body_share *share;
+    int joins; /* of the same group as the lane before, as are pieces of a surface in a cell: added to it */
     const int32_t *pair; /* of its group */
     int size, n_segment, n_run;
     const run *runs;
@@ -156,6 +157,16 @@ static void take_runs(lane *lanes, int n_lane, int carrier)
     }
 }
 
+/* A row of all items; those that join another are added to that one's. */
+static void take_row(const lane *lanes, int n_lane, const v8 *from, int n_block, v8 *row)
+{
+    for (int k = 0; k < n_block; k++)
+        transpose(from + 8 * k, row + k, n_block);
+    for (int l = n_lane - 1; l > 0; l--)
+        for (int k = 0; lanes[l].joins && k < n_block; k++)
+            row[(l - 1) * n_block + k] += row[l * n_block + k];
+}
+
 /* The rows of field f, all carriers. */
 static void scatter_rows(const assembly *a, const assembly_class *c, int64_t batch, int f, const workspace *w,
                          lane *lanes, double *value)
@@ -173,8 +184,7 @@ static void scatter_rows(const assembly *a, const assembly_class *c, int64_t bat
 
         if (p->field[r] != f)
             continue;
-        for (int k = 0; k < width / 8; k++)
-            transpose(w->mat + r * width + 8 * k, row + k, width / 8);
+        take_row(lanes, n_lane, w->mat + r * width, width / 8, row);
         if (p->carrier[r] != carrier)
             take_runs(lanes, n_lane, p->carrier[r]);
         carrier = p->carrier[r];
@@ -183,7 +193,7 @@ static void scatter_rows(const assembly *a, const assembly_class *c, int64_t bat
             const double *from = (const double *)row + l * width;
             double *to = value;
 
-            if (at < 0)
+            if (at < 0 || lanes[l].joins)
                 continue;
             if (lanes[l].share && of_body)
                 to = a->share_sum + lanes[l].share->at + p->n - lanes[l].share->first_value;
@@ -198,8 +208,10 @@ void scatter_matrix(const assembly *a, const assembly_class *c, int64_t batch, i
 {
     lane lanes[PF_LANES];
 
-    for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++)
+    for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++) {
         start_lane(a, c, slab, item, &lanes[item - c->batch[batch]]);
+        lanes[item - c->batch[batch]].joins = item > c->batch[batch] && c->group[item] == c->group[item - 1];
+    }
     for (int f = 0; f < a->space->n_field; f++)
         if (c->layout.coupled[f])
             scatter_rows(a, c, batch, f, w, lanes, value);
