@@ -37,14 +37,21 @@ static void add_output(const assembly_class *c, const plan_use *p, double factor
     }
 }
 
+typedef uint64_t bits __attribute__((may_alias));
+
+/* No bit set but for signs.  Most of what is not zero shows in the first lanes. */
 static int all_zero(const double *x, size_t n)
 {
-    int any = 0;
+    const bits *b = (const bits *)x;
+    uint64_t any = 0;
 
-    for (size_t i = 0; i < n && !any; i += PF_LANES)
-        for (size_t l = 0; l < PF_LANES; l++)
-            any |= x[i + l] != 0;
-    return !any;
+    for (size_t i = 0; i < PF_LANES; i++)
+        any |= b[i];
+    if (any << 1)
+        return 0;
+    for (size_t i = PF_LANES; i < n; i++)
+        any |= b[i];
+    return !(any << 1);
 }
 
 /* One Jacobian block, jac[oc][ic], into D[test][trial]; divergences spread over the diagonal.  Most derivatives
