@@ -5,6 +5,7 @@
 #define SOLVE_SOLVE_H
 
 #include "assemble/assemble.h"
+#include "solve/band.h"
 
 #include <plugflow/solver.h>
 
@@ -14,6 +15,7 @@
 
 typedef struct linear_stats {
     int factorisations, gmres_iterations, solves;
+    int band_factorisations; /* of the band alone */
     double largest_b;      /* norm of the largest right-hand side                       */
     double worst_residual; /* largest |b - A x| / |b| by fresh factors; of last corrections, small as b is,
                             * relative to 1e-8 of the largest |b| */
@@ -32,6 +34,11 @@ typedef struct linear {
     int max_iterations;     /* of GMRES with old factors; 0: factor every matrix        */
     int spent;              /* GMRES iterations since the last factorisation            */
     double memory_limit;    /* bytes                                                    */
+    band band;              /* where bodies have moved since the last factorisation     */
+    int has_factors;        /* there are some, for all but the band                     */
+    int moved_solves;       /* since that factorisation, ...                            */
+    double moved_flops;     /* ... and what it and they took, */
+    double last_flops;      /* and the last one                                         */
     double *v, *z;          /* Krylov vectors                                           */
     double *r;              /* [n] b - A x of the last solve                            */
     linear_stats stats;
@@ -51,6 +58,10 @@ int linear_predict(linear *l, error *err);
 /* x = the last factors' answer for b, right or not. */
 int linear_apply(linear *l, const double *b, double *x, error *err);
 void linear_forget(linear *l); /* the next solve factors afresh */
+/* Bodies are elsewhere: what was factored before is of use as band.h says, if at all. */
+void linear_move(linear *l, const body_points *now);
+/* The space's pattern is another one. */
+int linear_renew(linear *l, error *err);
 void linear_destroy(linear *l);
 #define LINEAR_ACCEPT 1e-10
 enum { LINEAR_MAX_ITERATIONS = 30 }; /* of GMRES */

@@ -40,16 +40,8 @@ int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_
 
 int system_renew(newton_system *s, error *err)
 {
-    linear_stats stats = s->linear.stats;
-    const pf_solver *solver = s->linear.solver;
-    double limit = s->linear.memory_limit;
-
     TRY(space_constrain(s->space, err));
-    linear_destroy(&s->linear);
-    TRY(linear_create(&s->linear, solver, s->space, s->assembly.n_thread, err));
-    s->linear.stats = stats;
-    s->linear.memory_limit = limit;
-    return 0;
+    return linear_renew(&s->linear, err);
 }
 
 void system_destroy(newton_system *s)

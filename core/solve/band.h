@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * band.h -- factors F of an earlier matrix, made good where bodies have moved since.
+ *
+ * There the matrix A is another one in the rows of cells that bodies were near to then or are near to now, and
+ * elsewhere nearly the same.  The band are the unknowns of these cells and of one layer of cells round them, and
+ * those of the bodies; with R the restriction to it,
+ *
+ *     z = F^-1 r,      z += R^T (R A R^T)^-1 R (r - A z)
+ *
+ * nearly solves A z = r: the far field first, then what is near.  The band's matrix is small, and factored for every
+ * A by the same kind of solver.  What one matrix has as an unknown and the other has not (fields inside of bodies)
+ * lies in the band. */
+#ifndef SOLVE_BAND_H
+#define SOLVE_BAND_H
+
+#include "assemble/assemble.h"
+
+#include <plugflow/solver.h>
+
+/* Operations that it takes to analyse a matrix, for each of its entries: measured, as time of a factorisation. */
+#define BAND_ANALYSIS_FLOPS 250.0
+
+typedef struct band {
+    const space *space;
+    const pf_solver *solver;
+    int n_thread;
+    uint8_t *then, *now; /* [n_cell] 1: a body was near when the factors were made; is near now */
+    uint8_t *cell;       /* [n_cell] of the band */
+    uint8_t *node;       /* [n_carrier] of the band */
+    int64_t n_then;      /* unknowns of the factors, by their number among all: */
+    int32_t *dof_then;   /* [n_dof] */
+    int same;            /* they are those of now */
+    int placed;          /* bodies have moved since */
+    int ready;           /* structure and solver are those of this placement */
+    void *self;          /* of the band's matrix */
+    pf_csr a;            /* of the band */
+    int64_t *row, *node_row;
+    int64_t *col, col_room;
+    double *value;
+    int64_t value_room;
+    int32_t *unknown;          /* [a.n] of the band among those of the matrix, ascending */
+    int32_t *number;           /* [n_dof] of the matrix among those of the band, or -1 */
+    double *r, *z, *far_r, *far_z; /* [n_dof] room */
+    pf_solver_cost cost; /* of the band's factors */
+    double flops;        /* of the last band_setup */
+    arena memory;
+} band;
+
+int band_create(band *b, const pf_solver *solver, const space *s, int n_thread, error *err);
+void band_destroy(band *b);
+/* Bodies are elsewhere, and the space may have other unknowns. */
+void band_place(band *b, const body_points *now);
+/* Factors have been made of a matrix with these bodies and unknowns. */
+void band_remember(band *b);
+/* Factors of the band of this matrix.  *pays = 0: the band is so large, or so singular, that they are none. */
+int band_setup(band *b, const pf_csr *a, double far_flops, int *pays, error *err);
+/* z = nearly the solution for r; `far` holds the factors of the earlier matrix. */
+int band_apply(band *b, const pf_csr *a, void *far, const double *r, double *z, error *err);
+
+#endif
