@@ -104,6 +104,7 @@ typedef struct solve_spec {
     int max_iterations;
     double linear_tolerance; /* of GMRES with old factors; 0: factor every matrix */
     double fall;             /* of a step in time, see newton_options */
+    const char *solver;      /* plugin of the linear solver, without "solver_"; NULL: the kernel chooses */
     int n_continued;         /* parameters of terms that a steady case is continued in, */
     double *continued[DESCRIBE_MAX_CONTINUED], from[DESCRIBE_MAX_CONTINUED], to[DESCRIBE_MAX_CONTINUED];
 } solve_spec;

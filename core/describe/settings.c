@@ -186,6 +186,11 @@ static void read_solve(description *d)
     reader_integer(&r, "max_iterations", "of Newton", 1, DESCRIBE_MAX_ITERATIONS, &o->max_iterations);
     reader_number(&r, "linear_tolerance", "of GMRES with old factors; 0: factor every matrix", 0, 0.1,
                   &o->linear_tolerance);
+    reader_string(&r, "solver",
+                  "linear solver, a plugin: \"umfpack\", \"block\"; \"auto\" chooses by predicted cost",
+                  &o->solver);
+    if (o->solver && strcmp(o->solver, "auto") == 0)
+        o->solver = NULL;
     read_continuation(d, &r);
     reader_close(&r);
 }

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* In cut cells Gauss's theorem holds as exactly as their quadrature; with an outflow the constant is off by
@@ -74,6 +75,26 @@ static void plan_continuation(problem *p)
     }
 }
 
+/* The linear solvers there are: that of the case, or a factorisation and one that iterates. */
+static int find_solvers(const problem *p, registry *r, linear_choice *c, error *err)
+{
+    const char *named = p->description.solve.solver, *plain;
+    char name[100];
+    const pf_solver *s;
+    error ignored;
+
+    if (named) {
+        plain = strncmp(named, "solver_", 7) == 0 ? named + 7 : named;
+        snprintf(name, sizeof name, "solver_%s", plain);
+        TRY(registry_solver(r, name, &s, err));
+        *(linear_approximates(s) ? &c->iterative : &c->direct) = s;
+        return 0;
+    }
+    if (registry_solver(r, "solver_block", &c->iterative, &ignored))
+        c->iterative = NULL;
+    return registry_solver(r, "solver_umfpack", &c->direct, err) && !c->iterative ? err->code : 0;
+}
+
 /* Terms by the points that they act on: one class for the cells, one each for what follows the bodies, one
  * for terms on all facets, one for each boundary line with fluxes. */
 static int make_system(problem *p, registry *r, error *err)
@@ -81,7 +102,7 @@ static int make_system(problem *p, registry *r, error *err)
     description *d = &p->description;
     assembly_spec spec[DESCRIBE_MAX_LINES + PF_PAIR + 2] = {{0}};
     term_use *on[PF_PAIR + 1][DESCRIBE_MAX_TERMS];
-    const pf_solver *solver;
+    linear_choice solvers = {0};
     uint8_t *all;
     int n = 0, n_on[PF_PAIR + 1] = {0};
 
@@ -112,8 +133,9 @@ static int make_system(problem *p, registry *r, error *err)
                                         .use = d->line[i].flux,
                                         .n_use = d->line[i].n_flux,
                                         .facet_on = p->conditions.facet[i]};
-    TRY(registry_solver(r, "solver_umfpack", &solver, err));
-    TRY(system_create(&p->system, &p->space, spec, n, solver, p->n_thread, err));
+    TRY(find_solvers(p, r, &solvers, err));
+    TRY(system_create(&p->system, &p->space, spec, n, &solvers, p->n_thread, err));
+    p->system.linear.warnings = &p->warnings;
     if (p->bodies.has_surface)
         p->system.gauge.tolerance = CUT_CLOSURE;
     return 0;

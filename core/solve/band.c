@@ -8,6 +8,10 @@
 
 /* Part of all unknowns, and of the operations of a factorisation, above which a band does not pay. */
 #define LARGEST 0.3
+/* Operations of an analysis for each entry of the matrix, and of a solution for each of the factors: measured, as
+ * times of a factorisation. */
+#define ANALYSIS 250.0
+#define SOLUTION 4.0
 
 int band_create(band *b, const pf_solver *solver, const space *s, int n_thread, error *err)
 {
@@ -56,13 +60,30 @@ void band_place(band *b, const body_points *now)
     b->ready = 0;
 }
 
-void band_remember(band *b)
+void band_remember(band *b, int factors, const pf_solver_cost *cost, const pf_csr *a)
 {
+    b->factors = factors;
+    b->placed = 0;
+    drop_solver(b);
     memcpy(b->then, b->now, (size_t)b->space->mesh->n_cell);
     b->n_then = b->space->n_free;
     memcpy(b->dof_then, b->space->dof_of, (size_t)b->n_then * sizeof *b->dof_then);
-    b->placed = 0;
-    drop_solver(b);
+    b->far = *cost;
+    b->total = cost->flops + ANALYSIS * (double)a->row[a->n];
+    b->flops = 0;
+    b->solves = 1;
+}
+
+int band_pays(const band *b)
+{
+    return b->factors && b->flops * b->solves <= b->total;
+}
+
+void band_count(band *b, int applications)
+{
+    b->flops += applications * SOLUTION * (b->far.fill + b->cost.fill);
+    b->total += b->flops;
+    b->solves++;
 }
 
 /* The nodes of the cells that are marked. */
@@ -145,7 +166,7 @@ static int failed(const band *b, int status, const char *why, error *err)
 }
 
 /* A solver for the band of a new placement. */
-static int prepare(band *b, const pf_csr *a, double far_flops, int *pays, error *err)
+static int prepare(band *b, const pf_csr *a, error *err)
 {
     char why[400] = "";
     int status;
@@ -154,8 +175,7 @@ static int prepare(band *b, const pf_csr *a, double far_flops, int *pays, error 
     number_band(b);
     b->same = b->n_then == b->space->n_free &&
               !memcmp(b->dof_then, b->space->dof_of, (size_t)b->n_then * sizeof *b->dof_then);
-    *pays = b->a.n < LARGEST * (double)a->n;
-    if (!*pays)
+    if ((double)b->a.n > LARGEST * (double)a->n)
         return 0;
     TRY(take_matrix(b, a, err));
     if (!b->self && (status = b->solver->create(&b->self, b->n_thread, why, sizeof why)))
@@ -163,29 +183,28 @@ static int prepare(band *b, const pf_csr *a, double far_flops, int *pays, error 
     status = b->solver->analyze(b->self, &b->a, &b->cost, why, sizeof why);
     if (status)
         return failed(b, status, why, err);
-    b->flops += BAND_ANALYSIS_FLOPS * (double)b->row[b->a.n];
-    *pays = b->cost.flops < LARGEST * far_flops;
-    b->ready = *pays;
+    b->flops += ANALYSIS * (double)b->row[b->a.n];
+    b->ready = b->cost.flops <= LARGEST * b->far.flops;
     return 0;
 }
 
-int band_setup(band *b, const pf_csr *a, double far_flops, int *pays, error *err)
+int band_setup(band *b, const pf_csr *a, int *done, error *err)
 {
     char why[400] = "";
     int status;
 
-    *pays = 1;
+    *done = 0;
     b->flops = 0;
     if (b->ready)
         TRY(take_matrix(b, a, err));
     else
-        TRY(prepare(b, a, far_flops, pays, err));
-    if (!*pays)
+        TRY(prepare(b, a, err));
+    if (!b->ready)
         return 0;
     status = b->solver->setup(b->self, &b->a, why, sizeof why);
     b->flops += b->cost.flops;
-    *pays = status != PF_SOLVER_SINGULAR;
-    return status && *pays ? failed(b, status, why, err) : 0;
+    *done = status == PF_SOLVER_OK;
+    return *done || status == PF_SOLVER_SINGULAR ? 0 : failed(b, status, why, err);
 }
 
 /* z = F^-1 r, zero for unknowns that the earlier matrix did not have. */

@@ -18,9 +18,6 @@
 
 #include <plugflow/solver.h>
 
-/* Operations that it takes to analyse a matrix, for each of its entries: measured, as time of a factorisation. */
-#define BAND_ANALYSIS_FLOPS 250.0
-
 typedef struct band {
     const space *space;
     const pf_solver *solver;
@@ -30,7 +27,8 @@ typedef struct band {
     uint8_t *node;       /* [n_carrier] of the band */
     int64_t n_then;      /* unknowns of the factors, by their number among all: */
     int32_t *dof_then;   /* [n_dof] */
-    int same;            /* they are those of now */
+    int factors;         /* there are some */
+    int same;            /* their unknowns are those of now */
     int placed;          /* bodies have moved since */
     int ready;           /* structure and solver are those of this placement */
     void *self;          /* of the band's matrix */
@@ -42,8 +40,10 @@ typedef struct band {
     int32_t *unknown;          /* [a.n] of the band among those of the matrix, ascending */
     int32_t *number;           /* [n_dof] of the matrix among those of the band, or -1 */
     double *r, *z, *far_r, *far_z; /* [n_dof] room */
-    pf_solver_cost cost; /* of the band's factors */
-    double flops;        /* of the last band_setup */
+    pf_solver_cost cost, far; /* of the factors of the band, and of those of the earlier matrix */
+    double flops;             /* of the last solution, ...                                      */
+    double total;             /* ... and of all since the factorisation, with that              */
+    int solves;               /* how many these were */
     arena memory;
 } band;
 
@@ -51,10 +51,15 @@ int band_create(band *b, const pf_solver *solver, const space *s, int n_thread, 
 void band_destroy(band *b);
 /* Bodies are elsewhere, and the space may have other unknowns. */
 void band_place(band *b, const body_points *now);
-/* Factors have been made of a matrix with these bodies and unknowns. */
-void band_remember(band *b);
-/* Factors of the band of this matrix.  *pays = 0: the band is so large, or so singular, that they are none. */
-int band_setup(band *b, const pf_csr *a, double far_flops, int *pays, error *err);
+/* A matrix with the bodies and unknowns of now has been factored, or (factors = 0) that has failed. */
+void band_remember(band *b, int factors, const pf_solver_cost *cost, const pf_csr *a);
+/* Whether a band is worth a try: it is until a solution takes more operations than all since the factorisation took
+ * in the mean, with that. */
+int band_pays(const band *b);
+/* Factors of the band of this matrix.  *done = 0: it is so large, or so singular, that there are none. */
+int band_setup(band *b, const pf_csr *a, int *done, error *err);
+/* A solution with the last set-up has taken so many applications. */
+void band_count(band *b, int applications);
 /* z = nearly the solution for r; `far` holds the factors of the earlier matrix. */
 int band_apply(band *b, const pf_csr *a, void *far, const double *r, double *z, error *err);
 

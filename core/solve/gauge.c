@@ -123,26 +123,13 @@ double gauge_excess(const newton_system *s, const double *scale)
     return largest;
 }
 
-void gauge_pin(newton_system *s)
+int gauge_tell(newton_system *s, error *err)
 {
-    const space *sp = s->space;
-    linear *l = &s->linear;
+    const double *integral[SPACE_MAX_FIELDS];
 
-    for (int f = 0; f < sp->n_field; f++) {
-        int64_t pin = s->gauge.pin[f];
-
-        if (!s->gauge.free[f])
-            continue;
-        for (int64_t k = sp->row[pin]; k < sp->row[pin + 1]; k++) {
-            int64_t j = sp->col[k];
-
-            l->value[k] = j == pin;
-            for (int64_t m = sp->row[j]; j != pin && m < sp->row[j + 1]; m++)
-                if (sp->col[m] == pin)
-                    l->value[m] = 0;
-        }
-        s->rhs[pin] = 0;
-    }
+    for (int f = 0; f < s->space->n_field; f++)
+        integral[f] = weights(&s->gauge, f);
+    return linear_tell(&s->linear, s->assembly.idle, s->gauge.free, integral, s->gauge.pin, err);
 }
 
 void gauge_use(newton_system *s, const body_points *bodies)

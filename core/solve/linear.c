@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Linear systems: a fresh factorisation, or GMRES (right preconditioned, no restart) with the
- * factors of an earlier matrix.  Old factors are kept while the iterations spent on them cost
- * less than new ones, by predicted operations, so that the choice is the same in every run. */
-#include "solve/solve.h"
+ * Linear systems.  A solver plugin sets something up, factors or a preconditioner, and flexible GMRES goes round
+ * it.  What was set up for an earlier matrix is kept while the iterations that this takes more cost less than a new
+ * one, by predicted operations, so that the choice is the same in every run. */
+#include "solve/linear.h"
 #include "base/clock.h"
 #include "solve/vector.h"
 
@@ -11,16 +11,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
-
-double solve_seconds(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* Part of the largest right-hand side of a run below which a solution is a correction in the last digits. */
 #define ROUND_OFF 1e-8
@@ -32,64 +22,88 @@ double solve_seconds(void)
 /* Relative residual of fresh factors above which a solution is useless. */
 #define USELESS 1e-6
 
-/* y = A x */
-static void multiply(const linear *l, const double *x, double *y)
-{
-    for (int64_t i = 0; i < l->a.n; i++) {
-        double s = 0;
+/* Iterations that a freshly set up iterative solver may take. */
+enum { ITERATIVE_MOST = 150 };
 
-        for (int64_t k = l->a.row[i]; k < l->a.row[i + 1]; k++)
-            s += l->value[k] * x[l->a.col[k]];
-        y[i] = s;
-    }
+/* An iterative solver is set up anew where it takes so many more iterations than usual. */
+enum { TIRED = 6 };
+
+const pf_solver *linear_solver(const linear *l)
+{
+    return l->analyzed || l->band.factors ? linear_method(l, l->at) : NULL;
 }
 
-static double available_memory(void)
+static int precondition(void *linear_, const double *b, double *x, error *err)
 {
-    FILE *f = fopen("/proc/meminfo", "r");
-    char line[200];
-    double kb = 0;
-
-    while (f && fgets(line, sizeof line, f))
-        if (sscanf(line, "MemAvailable: %lf kB", &kb) == 1)
-            break;
-    if (f)
-        fclose(f);
-    return kb > 0 ? 1024 * kb : (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-}
-
-int linear_create(linear *l, const pf_solver *solver, const space *s, int n_thread, error *err)
-{
+    linear *l = linear_;
     char why[400] = "";
 
-    l->solver = solver;
-    TRY(band_create(&l->band, solver, s, n_thread, err));
-    TRY(linear_renew(l, err));
-    if (solver->create(&l->self, n_thread, why, sizeof why))
-        return error_set(err, ERR_MEMORY, "linear solver %s: %s", solver->name, why);
+    if (l->band.placed)
+        return band_apply(&l->band, &l->a, l->instance[METHOD_DIRECT], b, x, err);
+    if (linear_method(l, l->at)->solve(l->instance[l->at], b, x, why, sizeof why))
+        return error_set(err, ERR_CONVERGE, "linear solver %s: %s", linear_method(l, l->at)->name, why);
     return 0;
+}
+
+static void project(void *linear_, double *rows)
+{
+    const linear *l = linear_;
+
+    unknowns_project(&l->rows, l->space, rows);
+}
+
+static void level(void *linear_, double *x)
+{
+    const linear *l = linear_;
+
+    unknowns_level(&l->rows, l->space, x);
+}
+
+int linear_approximates(const pf_solver *s)
+{
+    return s->size >= sizeof *s && (s->flags & PF_SOLVER_APPROXIMATE);
+}
+
+static int approximates(const linear *l)
+{
+    return linear_approximates(linear_method(l, l->at));
 }
 
 int linear_renew(linear *l, error *err)
 {
-    const space *s = l->band.space;
+    const space *s = l->space;
 
     arena_free(&l->memory);
+    gmres_destroy(&l->krylov);
     l->analyzed = l->factored = l->fresh = l->kept = 0;
+    l->field_scale = NULL;
     l->a = (pf_csr){.n = s->n_free, .row = s->row, .col = s->col, .n_node = s->n_row_node, .node = s->row_node};
     l->max_iterations = s->mesh->dim == 2 ? 12 : LINEAR_MAX_ITERATIONS;
     ARENA_NEW(&l->memory, l->value, s->row[s->n_free], err);
     l->a.value = l->value;
     ARENA_NEW(&l->memory, l->r, s->n_free, err);
-    ARENA_NEW(&l->memory, l->v, (l->max_iterations + 1) * s->n_free, err);
-    ARENA_NEW(&l->memory, l->z, l->max_iterations * s->n_free, err);
+    ARENA_NEW(&l->memory, l->row_scale, s->n_free, err);
+    TRY(unknowns_create(&l->rows, &l->memory, s, err));
+    l->a.unknowns = &l->rows.view;
+    l->krylov = (gmres){.a = &l->a, .n_thread = l->n_thread, .apply = precondition, .ctx = l, .r = l->r};
     return 0;
+}
+
+int linear_create(linear *l, const linear_choice *choice, const space *s, int n_thread, error *err)
+{
+    memset(l, 0, sizeof *l);
+    l->choice = *choice;
+    l->space = s;
+    l->n_thread = n_thread;
+    return linear_renew(l, err);
 }
 
 void linear_destroy(linear *l)
 {
-    if (l->self)
-        l->solver->destroy(l->self);
+    for (int m = 0; m < N_METHOD; m++)
+        if (l->instance[m])
+            linear_method(l, m)->destroy(l->instance[m]);
+    gmres_destroy(&l->krylov);
     band_destroy(&l->band);
     arena_free(&l->memory);
     memset(l, 0, sizeof *l);
@@ -97,13 +111,18 @@ void linear_destroy(linear *l)
 
 void linear_forget(linear *l)
 {
-    l->factored = l->fresh = l->has_factors = 0;
+    l->factored = l->fresh = l->band.factors = 0;
 }
 
-void linear_move(linear *l, const body_points *now)
+int linear_move(linear *l, const body_points *now, error *err)
 {
-    band_place(&l->band, now);
     l->factored = l->fresh = 0;
+    if (!l->choice.direct)
+        return 0;
+    if (!l->band.space)
+        TRY(band_create(&l->band, l->choice.direct, l->space, l->n_thread, err));
+    band_place(&l->band, now);
+    return 0;
 }
 
 void linear_keep(linear *l)
@@ -111,131 +130,29 @@ void linear_keep(linear *l)
     l->kept = 1;
 }
 
-int linear_predict(linear *l, error *err)
+int linear_tell(linear *l, const uint8_t *idle, const int *free_fields, const double *const *integral,
+                const int64_t *pin, error *err)
 {
-    char why[400] = "";
-    double t = clock_seconds(), memory;
-    int status = l->solver->analyze(l->self, &l->a, &l->stats.cost, why, sizeof why);
-
-    l->stats.analyze_seconds += clock_seconds() - t;
-    if (status)
-        return error_set(err, status == PF_SOLVER_MEMORY ? ERR_MEMORY : ERR_CONVERGE, "linear solver %s: %s",
-                         l->solver->name, why);
-    memory = available_memory();
-    if (l->memory_limit > 0 && l->memory_limit < memory)
-        memory = l->memory_limit;
-    if (l->stats.cost.bytes > memory)
-        return error_set(
-            err, ERR_MEMORY,
-            "the factors of %lld unknowns will need %.3g GB and there are %.3g GB: take fewer cells (%.0f %% in "
-            "each direction would fit), a 2D or symmetric part of the problem, or a machine with more memory",
-            (long long)l->a.n, l->stats.cost.bytes / 1e9, memory / 1e9,
-            100 * pow(memory / l->stats.cost.bytes, 0.25));
-    l->analyzed = 1;
-    return 0;
+    l->pin = pin;
+    return unknowns_update(&l->rows, &l->memory, l->space, idle, free_fields, integral, err);
 }
 
-int linear_apply(linear *l, const double *b, double *x, error *err)
+static int set_up(linear *l, error *err)
 {
-    char why[400] = "";
-
-    if (l->band.placed)
-        return band_apply(&l->band, &l->a, l->self, b, x, err);
-    if (l->solver->solve(l->self, b, x, why, sizeof why))
-        return error_set(err, ERR_CONVERGE, "linear solver %s: %s", l->solver->name, why);
-    return 0;
-}
-
-/* Least-squares update of GMRES: Givens rotations on column k of the Hessenberg matrix. */
-static void rotate(double *h, double *c, double *s, double *g, int k)
-{
-    double d;
-
-    for (int i = 0; i < k; i++) {
-        double a = c[i] * h[i] + s[i] * h[i + 1];
-
-        h[i + 1] = -s[i] * h[i] + c[i] * h[i + 1];
-        h[i] = a;
-    }
-    d = hypot(h[k], h[k + 1]);
-    c[k] = d > 0 ? h[k] / d : 1;
-    s[k] = d > 0 ? h[k + 1] / d : 0;
-    h[k] = d;
-    g[k + 1] = -s[k] * g[k];
-    g[k] = c[k] * g[k];
-}
-
-/* GMRES from x = 0, at most `limit` iterations; *reached = relative residual, l->r = b - A x. */
-static int gmres(linear *l, const double *b, double *x, double tol, int limit, double *reached, error *err)
-{
-    enum { MOST = LINEAR_MAX_ITERATIONS };
-    int64_t n = l->a.n;
-    double h[MOST][MOST + 1], c[MOST], s[MOST], g[MOST + 1] = {0}, y[MOST], size = vector_norm(n, b);
-    int k = 0;
-
-    memset(x, 0, (size_t)n * sizeof *x);
-    memset(l->r, 0, (size_t)n * sizeof *l->r);
-    *reached = 0;
-    if (size == 0)
-        return 0;
-    g[0] = size;
-    vector_divide(n, size, b, l->v);
-    while (k < limit && fabs(g[k]) > tol * size) {
-        double *w = l->v + (k + 1) * n, *z = l->z + k * n, next;
-
-        TRY(linear_apply(l, l->v + k * n, z, err));
-        multiply(l, z, w);
-        for (int i = 0; i <= k; i++) {
-            h[k][i] = vector_dot(n, w, l->v + i * n);
-            vector_add(n, -h[k][i], l->v + i * n, w);
-        }
-        next = h[k][k + 1] = vector_norm(n, w);
-        if (next > 0)
-            vector_divide(n, next, w, w);
-        rotate(h[k], c, s, g, k);
-        k++;
-        l->stats.gmres_iterations++;
-        l->spent++;
-        if (next == 0)
-            break;
-    }
-    for (int i = k - 1; i >= 0; i--) {
-        y[i] = g[i];
-        for (int j = i + 1; j < k; j++)
-            y[i] -= h[j][i] * y[j];
-        y[i] /= h[i][i];
-        vector_add(n, y[i], l->z + i * n, x);
-    }
-    multiply(l, x, l->r);
-    vector_subtract(n, b, l->r);
-    *reached = vector_norm(n, l->r) / size;
-    return 0;
-}
-
-/* Operations of a solve: one on an entry of the factors takes twice as long as in the factorisation. */
-static double solve_flops(const linear *l)
-{
-    return 4 * l->stats.cost.fill;
-}
-
-static int factor(linear *l, error *err)
-{
+    const pf_solver *solver;
     char why[400] = "";
     double t;
     int status;
 
-    if (!l->analyzed)
-        TRY(linear_predict(l, err));
+    solver = linear_method(l, l->at);
     t = clock_seconds();
-    status = l->solver->setup(l->self, &l->a, why, sizeof why);
+    status = solver->setup(l->instance[l->at], &l->a, why, sizeof why);
     l->stats.factor_seconds += clock_seconds() - t;
     l->stats.factorisations++;
     l->spent = 0;
-    l->factored = l->fresh = l->has_factors = status == PF_SOLVER_OK;
-    l->moved_solves = 1;
-    l->moved_flops = l->stats.cost.flops + BAND_ANALYSIS_FLOPS * (double)l->a.row[l->a.n];
-    l->last_flops = 0;
-    band_remember(&l->band);
+    l->factored = l->fresh = status == PF_SOLVER_OK;
+    if (l->band.space)
+        band_remember(&l->band, status == PF_SOLVER_OK && l->at == METHOD_DIRECT, &l->stats.cost, &l->a);
     if (status == PF_SOLVER_SINGULAR) {
         error_set(err, ERR_CONVERGE, "the linear system is singular");
         err->retry = 1;
@@ -243,8 +160,65 @@ static int factor(linear *l, error *err)
     }
     if (status)
         return error_set(err, status == PF_SOLVER_MEMORY ? ERR_MEMORY : ERR_CONVERGE, "linear solver %s: %s",
-                         l->solver->name, why);
+                         solver->name, why);
     return 0;
+}
+
+static int iterate(linear *l, const double *b, double *x, double tol, int limit, double *reached, error *err)
+{
+    double t = clock_seconds();
+    int n, status = gmres_solve(&l->krylov, b, x, tol, limit, reached, &n, err);
+
+    l->stats.gmres_iterations += n;
+    l->spent += n;
+    l->stats.solve_seconds += clock_seconds() - t;
+    return status;
+}
+
+/* Of each free field one value is held: its equation is x = 0. */
+static void hold(linear *l, double *b)
+{
+    for (int f = 0; l->pin && f < l->space->n_field; f++) {
+        int64_t pin = l->pin[f];
+
+        if (!(l->rows.view.free_fields >> f & 1))
+            continue;
+        for (int64_t k = l->a.row[pin]; k < l->a.row[pin + 1]; k++) {
+            int64_t j = l->a.col[k];
+
+            l->value[k] = j == pin;
+            for (int64_t m = l->a.row[j]; j != pin && m < l->a.row[j + 1]; m++)
+                if (l->a.col[m] == pin)
+                    l->value[m] = 0;
+        }
+        b[pin] = 0;
+    }
+}
+
+/* The iteration has residuals as the caller measures them, and leaves free constants alone. */
+static void prepare(linear *l, double *b, int approximate)
+{
+    l->krylov.scale = NULL;
+    l->krylov.project = approximate ? project : NULL;
+    l->krylov.level = approximate ? level : NULL;
+    if (!approximate)
+        hold(l, b);
+    if (!approximate || !l->field_scale)
+        return;
+    for (int64_t i = 0; i < l->a.n; i++) {
+        double s = l->field_scale[l->rows.view.field_of[i]];
+
+        l->row_scale[i] = s > 0 ? 1 / s : 1;
+    }
+    l->krylov.scale = l->row_scale;
+}
+
+int linear_apply(linear *l, double *b, double *x, error *err)
+{
+    double reached;
+
+    prepare(l, b, approximates(l));
+    return approximates(l) ? iterate(l, b, x, 0.1, TIRED, &reached, err) : precondition(l, b, x, err);
 }
 
 /* Backward error |b - A z| / (| |A||z| | + |b|) of what the solver returns (Oettli and Prager 1964); infinite if
@@ -252,15 +226,15 @@ static int factor(linear *l, error *err)
 static int backward_error(linear *l, const double *b, double *z, double *backward, error *err)
 {
     int64_t n = l->a.n;
-    double *size = l->v, left;
+    double *size = l->krylov.v[0], left;
 
-    TRY(linear_apply(l, b, z, err));
+    TRY(precondition(l, b, z, err));
     for (int64_t i = 0; i < n; i++) {
         size[i] = 0;
         for (int64_t k = l->a.row[i]; k < l->a.row[i + 1]; k++)
             size[i] += fabs(l->value[k] * z[l->a.col[k]]);
     }
-    multiply(l, z, l->r);
+    gmres_multiply(&l->krylov, z, l->r);
     vector_subtract(n, b, l->r);
     left = vector_norm(n, l->r);
     *backward = left / (vector_norm(n, size) + vector_norm(n, b));
@@ -281,72 +255,126 @@ static int blame(linear *l, const double *b, double *x, double reached, error *e
             err, ERR_PLUGIN,
             "linear solver %s left a residual of %.2g after its own factorisation, and its solution %s: "
             "the solver or its plugin is at fault, not the equations; take another solver",
-            l->solver->name, reached, isinf(backward) ? "is not finite" : "solves no system near this one");
+            linear_method(l, l->at)->name, reached,
+            isinf(backward) ? "is not finite" : "solves no system near this one");
     error_set(err, ERR_CONVERGE, "the linear system is nearly singular: residual %.2g after factoring it", reached);
     err->retry = 1;
     return ERR_CONVERGE;
 }
 
-/* By the factors of before bodies have moved, if that pays: it does until a solve takes more than all of them took
- * in the mean since the factorisation, with that. */
-static int solve_moved(linear *l, const double *b, double *x, double tol, int *done, error *err)
+/* By the factors of before bodies have moved, if that pays. */
+static int solve_moved(linear *l, double *b, double *x, double tol, int *done, error *err)
 {
-    double t = clock_seconds(), reached = 0;
-    int before = l->stats.gmres_iterations, pays;
+    double start = clock_seconds(), reached = 0;
+    int n = l->stats.gmres_iterations;
 
-    *done = 0;
-    if (!l->has_factors || tol <= 0 || l->last_flops * l->moved_solves > l->moved_flops)
+    prepare(l, b, 0);
+    TRY(band_setup(&l->band, &l->a, &l->factored, err));
+    l->stats.factor_seconds += clock_seconds() - start;
+    l->stats.band_factorisations += l->factored;
+    if (!l->factored)
         return 0;
-    TRY(band_setup(&l->band, &l->a, l->stats.cost.flops, &pays, err));
-    l->stats.factor_seconds += clock_seconds() - t;
-    l->stats.band_factorisations += pays;
-    l->factored = pays;
-    if (!pays)
-        return 0;
-    t = clock_seconds();
-    TRY(gmres(l, b, x, tol, l->max_iterations, &reached, err));
-    l->stats.solve_seconds += clock_seconds() - t;
-    l->last_flops = l->band.flops + (l->stats.gmres_iterations - before) * solve_flops(l);
-    l->moved_flops += l->last_flops;
-    l->moved_solves++;
+    TRY(iterate(l, b, x, tol, l->max_iterations, &reached, err));
+    band_count(&l->band, l->stats.gmres_iterations - n);
     *done = reached <= 1.01 * tol;
     return 0;
 }
 
-int linear_solve(linear *l, const double *b, double *x, double tol, error *err)
+static int solve_by_factors(linear *l, double *b, double *x, double tol, error *err)
 {
-    double t, reached, size;
-    int done = 0;
+    double reached, size, solve_flops = 4 * l->stats.cost.fill;
 
-    l->stats.solves++;
-    l->fresh = l->fresh && l->kept;
-    l->kept = 0;
-    if (l->band.placed) {
-        TRY(solve_moved(l, b, x, tol, &done, err));
-        if (done)
-            return 0;
-    } else if (l->factored && !l->fresh && tol > 0 && l->spent * solve_flops(l) < l->stats.cost.flops) {
+    prepare(l, b, 0);
+    if (l->factored && !l->fresh && tol > 0 && l->spent * solve_flops < l->stats.cost.flops) {
         int spent = l->spent;
 
-        t = clock_seconds();
-        TRY(gmres(l, b, x, tol, l->max_iterations, &reached, err));
-        l->stats.solve_seconds += clock_seconds() - t;
+        TRY(iterate(l, b, x, tol, l->max_iterations, &reached, err));
         if (l->spent == spent + 1 && reached <= LINEAR_ACCEPT)
             l->spent = spent; /* as good as fresh ones: new factors would have taken this iteration, too */
         if (reached <= 1.01 * tol)
             return 0;
     }
     if (!l->fresh)
-        TRY(factor(l, err));
-    t = clock_seconds();
-    TRY(gmres(l, b, x, LINEAR_ACCEPT, 1, &reached, err));
+        TRY(set_up(l, err));
+    TRY(iterate(l, b, x, LINEAR_ACCEPT, 1, &reached, err));
     if (!(reached <= LINEAR_ACCEPT))
-        TRY(gmres(l, b, x, 0.1 * LINEAR_ACCEPT, l->max_iterations, &reached, err));
+        TRY(iterate(l, b, x, 0.1 * LINEAR_ACCEPT, l->max_iterations, &reached, err));
     size = vector_norm(l->a.n, b);
     l->stats.largest_b = fmax(l->stats.largest_b, size);
     if (isfinite(reached)) /* of a right-hand side near round-off only a part */
         l->stats.worst_residual =
             fmax(l->stats.worst_residual, reached * fmin(1, size / (ROUND_OFF * l->stats.largest_b + DBL_MIN)));
-    l->stats.solve_seconds += clock_seconds() - t;
     return reached <= USELESS ? 0 : blame(l, b, x, reached, err);
+}
+
+/* The iterative solver did not reach tol: the factorisation takes over, for good. */
+static int replace(linear *l, double *b, double *x, double tol, double reached, error *err)
+{
+    int unfit, status;
+
+    linear_forget(l);
+    if (!l->choice.direct) {
+        error_set(err, ERR_CONVERGE, "linear solver %s: residual %.2g after %d iterations, expected %.2g",
+                  l->choice.iterative->name, reached, ITERATIVE_MOST, tol);
+        err->retry = 1;
+        return ERR_CONVERGE;
+    }
+    l->gave_up = 1;
+    l->analyzed = 0;
+    snprintf(l->stats.why, sizeof l->stats.why, "residual %.2g after %d iterations", reached, ITERATIVE_MOST);
+    status = linear_analyze(l, METHOD_DIRECT, &unfit, err);
+    if (status) {
+        err->retry = status == ERR_MEMORY; /* a shorter step may be easier */
+        l->gave_up = status != ERR_MEMORY;
+        return status;
+    }
+    if (l->warnings)
+        warning_add(l->warnings,
+                    "the iterative linear solver reached a residual of %.2g after %d iterations, expected %.2g: %s "
+                    "solves from here on",
+                    reached, ITERATIVE_MOST, tol, l->choice.direct->name);
+    return solve_by_factors(l, b, x, tol, err);
+}
+
+static int solve_by_iteration(linear *l, double *b, double *x, double tol, error *err)
+{
+    double reached = INFINITY, solve_flops = 4 * l->stats.cost.fill;
+    int had = l->stats.gmres_iterations;
+
+    prepare(l, b, 1);
+    if (l->factored && !l->fresh && l->spent * solve_flops < l->stats.cost.flops) {
+        int spent = l->spent;
+
+        TRY(iterate(l, b, x, tol, 2 * l->usual + TIRED, &reached, err));
+        had = l->stats.gmres_iterations - had;
+        l->spent = spent + (had > l->usual ? had - l->usual : 0);
+        if (reached <= 1.01 * tol)
+            return 0;
+    }
+    if (!l->fresh)
+        TRY(set_up(l, err));
+    had = l->stats.gmres_iterations;
+    TRY(iterate(l, b, x, tol, ITERATIVE_MOST, &reached, err));
+    l->usual = l->stats.gmres_iterations - had;
+    l->spent = 0;
+    l->stats.worst_residual = fmax(l->stats.worst_residual, reached);
+    return reached <= 1.01 * tol ? 0 : replace(l, b, x, tol, reached, err);
+}
+
+int linear_solve(linear *l, double *b, double *x, double tol, error *err)
+{
+    int moved = l->band.placed && tol > 0 && band_pays(&l->band), done = 0, unfit;
+
+    l->stats.solves++;
+    l->fresh = l->fresh && l->kept;
+    l->kept = 0;
+    if (moved)
+        TRY(solve_moved(l, b, x, tol, &done, err));
+    if (done)
+        return 0;
+    if (!l->analyzed) /* in a matrix for factors a value is held already */
+        TRY(moved ? linear_analyze(l, METHOD_DIRECT, &unfit, err) : linear_predict(l, err));
+    if (approximates(l))
+        return solve_by_iteration(l, b, x, tol > 0 ? tol : 0.1 * USELESS, err);
+    return solve_by_factors(l, b, x, tol, err);
 }

@@ -83,7 +83,7 @@ static int polish(iterate *it, double *change, error *err)
     int status;
 
     vector_negative(s->space, s->residual, s->rhs);
-    gauge_pin(s);
+    TRY(gauge_tell(s, err));
     TRY(linear_apply(&s->linear, s->rhs, s->step, err));
     memcpy(s->trial, it->x, bytes);
     memcpy(s->scale, s->residual, bytes);
@@ -164,7 +164,8 @@ static int correct(iterate *it, int k, error *err)
     int status;
 
     vector_negative(s->space, s->residual, s->rhs);
-    gauge_pin(s);
+    TRY(gauge_tell(s, err));
+    s->linear.field_scale = it->scale;
     if (it->solved)
         linear_keep(&s->linear);
     status = linear_solve(&s->linear, s->rhs, s->step, it->o->linear_tolerance, err);

@@ -5,66 +5,9 @@
 #define SOLVE_SOLVE_H
 
 #include "assemble/assemble.h"
-#include "solve/band.h"
-
-#include <plugflow/solver.h>
+#include "solve/linear.h"
 
 #include <signal.h>
-
-/* --- linear (linear.c) --- */
-
-typedef struct linear_stats {
-    int factorisations, gmres_iterations, solves;
-    int band_factorisations; /* of the band alone */
-    double largest_b;      /* norm of the largest right-hand side                       */
-    double worst_residual; /* largest |b - A x| / |b| by fresh factors; of last corrections, small as b is,
-                            * relative to 1e-8 of the largest |b| */
-    double factor_seconds, solve_seconds, analyze_seconds;
-    pf_solver_cost cost;
-} linear_stats;
-
-typedef struct linear {
-    const pf_solver *solver;
-    void *self;
-    pf_csr a;
-    double *value;
-    int analyzed, factored; /* factored: there are factors, perhaps of an older matrix */
-    int fresh;              /* the factors are of the matrix of the last solve ...      */
-    int kept;               /* ... and the next one has the same                        */
-    int max_iterations;     /* of GMRES with old factors; 0: factor every matrix        */
-    int spent;              /* GMRES iterations since the last factorisation            */
-    double memory_limit;    /* bytes                                                    */
-    band band;              /* where bodies have moved since the last factorisation     */
-    int has_factors;        /* there are some, for all but the band                     */
-    int moved_solves;       /* since that factorisation, ...                            */
-    double moved_flops;     /* ... and what it and they took, */
-    double last_flops;      /* and the last one                                         */
-    double *v, *z;          /* Krylov vectors                                           */
-    double *r;              /* [n] b - A x of the last solve                            */
-    linear_stats stats;
-    arena memory;
-} linear;
-
-int linear_create(linear *l, const pf_solver *solver, const space *s, int n_thread, error *err);
-/* Solves A x = b to |b - A x| <= tol |b|: with the factors there are, as preconditioner of GMRES,
- * if that pays, else with fresh ones.  A fresh one passes whatever tol is, unless it is useless.
- * Errors: ERR_CONVERGE with err->retry if the matrix is singular or nearly so; ERR_PLUGIN if the solver does not
- * solve. */
-int linear_solve(linear *l, const double *b, double *x, double tol, error *err);
-/* The next linear_solve has the matrix of the last one: it is not factored a second time. */
-void linear_keep(linear *l);
-/* Analyses the pattern: fills stats.cost; ERR_MEMORY if the factors will not fit. */
-int linear_predict(linear *l, error *err);
-/* x = the last factors' answer for b, right or not. */
-int linear_apply(linear *l, const double *b, double *x, error *err);
-void linear_forget(linear *l); /* the next solve factors afresh */
-/* Bodies are elsewhere: what was factored before is of use as band.h says, if at all. */
-void linear_move(linear *l, const body_points *now);
-/* The space's pattern is another one. */
-int linear_renew(linear *l, error *err);
-void linear_destroy(linear *l);
-#define LINEAR_ACCEPT 1e-10
-enum { LINEAR_MAX_ITERATIONS = 30 }; /* of GMRES */
 
 /* --- fields that are fixed up to a constant (gauge.c) --- */
 
@@ -134,12 +77,13 @@ int gauge_detect(newton_system *s, int *changed, error *err);
 void gauge_project(newton_system *s, double *residual); /* takes the inconsistent part out */
 /* Scaled norm of what that was, largest of all fields. */
 double gauge_excess(const newton_system *s, const double *scale);
-void gauge_pin(newton_system *s);                            /* changes the matrix              */
+/* Tells the linear solver, before each solution, what is idle and free. */
+int gauge_tell(newton_system *s, error *err);
 void gauge_use(newton_system *s, const body_points *bodies); /* what follows is with these bodies (or NULL) */
 /* Takes from free fields their mean over the fluid. */
 void gauge_zero_mean(newton_system *s, const body_points *bodies, double *x);
 
-int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_spec, const pf_solver *solver,
+int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_spec, const linear_choice *solvers,
                   int n_thread, error *err);
 /* The pattern of the matrix is another one (space.h): numbers the free unknowns anew, with a linear solver for
  * them. */

@@ -19,13 +19,13 @@ static void couple_fields(newton_system *s, const pf_term *t)
                     1u << space_find_field(s->space, t->in[k].field);
 }
 
-int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_spec, const pf_solver *solver,
+int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_spec, const linear_choice *solvers,
                   int n_thread, error *err)
 {
     memset(s, 0, sizeof *s);
     s->space = sp;
     TRY(assembly_create(&s->assembly, sp, spec, n_spec, n_thread, err));
-    TRY(linear_create(&s->linear, solver, sp, n_thread, err));
+    TRY(linear_create(&s->linear, solvers, sp, n_thread, err));
     ARENA_NEW(&s->memory, s->residual, sp->n_dof, err);
     ARENA_NEW(&s->memory, s->trial, sp->n_dof, err);
     ARENA_NEW(&s->memory, s->step, sp->n_dof, err);

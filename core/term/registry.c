@@ -87,11 +87,11 @@ static int load_other(term_file *f, void *solver, void *mesh, error *err)
 
         memcpy(&entry, &solver, sizeof entry);
         f->solver = entry(why, sizeof why);
-        if (f->solver && (f->solver->major != PF_SOLVER_MAJOR || f->solver->size < sizeof(pf_solver)))
+        if (f->solver && (f->solver->major != PF_SOLVER_MAJOR || f->solver->size < offsetof(pf_solver, flags)))
             return error_set(
                 err, ERR_PLUGIN,
                 "solver plugin %s has interface %u (%u bytes), this plugflow has %u (%zu bytes); rebuild it",
-                f->path, f->solver->major, f->solver->size, PF_SOLVER_MAJOR, sizeof(pf_solver));
+                f->path, f->solver->major, f->solver->size, PF_SOLVER_MAJOR, offsetof(pf_solver, flags));
         f->kind = "solver";
     } else {
         pf_mesh_entry_fn *entry;

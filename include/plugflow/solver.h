@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * solver.h -- what a linear solver plugin offers.  It only analyses, factors and applies;
- * the kernel owns GMRES, the reuse of factors and every residual check.
+ * solver.h -- what a linear solver plugin offers.  It only analyses, sets up and applies, once per call; the kernel
+ * owns the Krylov iteration (flexible GMRES, right preconditioned), the reuse of what was set up, and every
+ * residual check.  What a solver returns for a right-hand side may be exact (a factorisation) or a rough answer
+ * (PF_SOLVER_APPROXIMATE), which the iteration makes good.
  * One exported symbol: pf_solver_entry. */
 #ifndef PLUGFLOW_SOLVER_H
 #define PLUGFLOW_SOLVER_H
@@ -11,27 +13,62 @@
 
 #define PF_SOLVER_MAJOR 1u
 
+enum pf_row_kind { PF_ROWS_OF_NODE = 0, PF_ROWS_OF_PROBLEM = 1, PF_ROWS_OF_BODY = 2 };
+
+typedef struct pf_row_field {
+    const char *name;
+    int32_t n_comp;
+    int32_t order;  /* 2: at all nodes of the mesh, 1: at vertices of cells, 0: off the mesh */
+    int32_t inside; /* 1: lives inside of bodies only */
+} pf_row_field;
+
+/* What the unknowns are.  Rows of one node (a node of the mesh, a body) are a group, see pf_csr.  All is fixed from
+ * analyze() on but what is marked *, which belongs to the values of the matrix. */
+typedef struct pf_unknowns {
+    uint32_t size;
+    int32_t dim, n_field;
+    const pf_row_field *field;   /* [n_field]                                                */
+    const uint8_t *field_of;     /* [n] of each row                                          */
+    const uint8_t *comp_of;      /* [n] component of the field                               */
+    const uint8_t *kind;         /* [n_node] enum pf_row_kind                                */
+    const double *x;             /* [n_node][dim] where a node of the mesh is; others: 0     */
+    const int64_t *parent;       /* [n_node + 1] a node that is no vertex lies between vertices:         */
+    const int32_t *parent_node;  /* [parent[n_node]] groups of those that have unknowns ...              */
+    const double *parent_weight; /* ... and shares, by which linear functions are interpolated           */
+    const uint8_t *idle;         /* * [n] 1: the row is x = 0, the column is zero            */
+    uint32_t free_fields;        /* * bit f: a constant added to field f changes nothing; b is such that the ... */
+    const double *const *weight; /* * ... sum of its rows vanishes; [n_field][n] shares in that sum, or NULL     */
+} pf_unknowns;
+
 /* Square sparse matrix, compressed sparse rows; columns ascend within a row. */
 typedef struct pf_csr {
-    int64_t n;           /* rows                                                        */
-    const int64_t *row;  /* row pointers, size n+1                                      */
-    const int64_t *col;  /* column indices, size row[n]                                 */
-    const double *value; /* entries, size row[n]; NULL during analyze                   */
-    int64_t n_node;      /* unknowns come in groups that share a node of the mesh ...   */
-    const int64_t *node; /* ... group g is rows node[g] .. node[g+1]-1, size n_node+1   */
+    int64_t n;                   /* rows                                                        */
+    const int64_t *row;          /* row pointers, size n+1                                      */
+    const int64_t *col;          /* column indices, size row[n]                                 */
+    const double *value;         /* entries, size row[n]; NULL during analyze                   */
+    int64_t n_node;              /* unknowns come in groups that share a node of the mesh ...   */
+    const int64_t *node;         /* ... group g is rows node[g] .. node[g+1]-1, size n_node+1   */
+    const pf_unknowns *unknowns; /* what they are; NULL: not known                       */
 } pf_csr;
 
 typedef struct pf_solver_cost {
-    double bytes; /* memory that setup will need, predicted    */
-    double flops; /* floating-point operations of one setup    */
-    double fill;  /* entries of the factors                    */
+    double bytes; /* memory that setup will need, predicted                       */
+    double flops; /* floating-point operations of one setup                       */
+    double fill;  /* entries that one solve passes over; two operations on each,
+                   * twice for a factorisation (L and U)                          */
 } pf_solver_cost;
 
 enum pf_solver_status {
     PF_SOLVER_OK = 0,
     PF_SOLVER_SINGULAR = 1, /* recoverable: the matrix is singular    */
+    PF_SOLVER_UNFIT = 2,    /* this solver is not for such a system; err says why.  The kernel takes another one */
     PF_SOLVER_MEMORY = -2,  /* fatal                                  */
     PF_SOLVER_ERROR = -1
+};
+
+enum pf_solver_flag {
+    PF_SOLVER_APPROXIMATE = 1u << 0 /* solve() gives a rough answer; the matrix is handed over as it is, singular by
+                                     * its free constants.  Without this flag one value of each is held. */
 };
 
 /* All functions return an enum pf_solver_status and explain themselves in err. */
@@ -43,6 +80,7 @@ typedef struct pf_solver {
     int (*setup)(void *self, const pf_csr *matrix, char *err, size_t nerr);
     int (*solve)(void *self, const double *b, double *x, char *err, size_t nerr);
     void (*destroy)(void *self);
+    uint32_t flags; /* enum pf_solver_flag; of solvers built before there were any: 0 */
 } pf_solver;
 
 typedef const pf_solver *pf_solver_entry_fn(char *err, size_t nerr);

@@ -45,7 +45,7 @@ void small_make(small_system *f, const pf_solver *solver, uint32_t flags, const 
         };
         use[i] = &f->use[i];
     }
-    if (status || system_create(&f->sys, &f->s, &spec, 1, solver, 1, &f->err))
+    if (status || system_create(&f->sys, &f->s, &spec, 1, &(linear_choice){.direct = solver}, 1, &f->err))
         fail_msg("%s", f->err.text);
     assert_true(f->s.n_dof <= SMALL_MAX_DOFS);
 }

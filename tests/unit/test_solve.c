@@ -46,7 +46,7 @@ static int setup(void **state)
     if (mesh_create_box(&b, &f.m, &err) || mesh_measure(&f.m, &err) || fields_add(&f.fields, 2, &u, "test", &err) ||
         space_number(&f.s, &f.fields, &f.m, 0, &err) || space_constrain(&f.s, &err) ||
         registry_create(&f.r, NULL, 0, &err) || registry_solver(&f.r, "solver_umfpack", &solver, &err) ||
-        linear_create(&f.l, solver, &f.s, 1, &err))
+        linear_create(&f.l, &(linear_choice){.direct = solver}, &f.s, 1, &err))
         return -1;
     *state = &f;
     return 0;

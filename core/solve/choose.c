@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Which linear solver: by the predicted operations of a factorisation, and by memory. */
+#include "base/clock.h"
+#include "solve/linear.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <unistd.h>
+
+/* Operations of a factorisation from which an iterative solver is worth a try: a second or two. */
+#define MANY_FLOPS 2e10
+
+static double available_memory(void)
+{
+    FILE *f = fopen("/proc/meminfo", "r");
+    char line[200];
+    double kb = 0;
+
+    while (f && fgets(line, sizeof line, f))
+        if (sscanf(line, "MemAvailable: %lf kB", &kb) == 1)
+            break;
+    if (f)
+        fclose(f);
+    return kb > 0 ? 1024 * kb : (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+}
+
+const pf_solver *linear_method(const linear *l, int method)
+{
+    return method == METHOD_DIRECT ? l->choice.direct : l->choice.iterative;
+}
+
+int linear_analyze(linear *l, int method, int *unfit, error *err)
+{
+    const pf_solver *solver = linear_method(l, method);
+    char why[400] = "";
+    double t = clock_seconds(), memory = available_memory();
+    int status = 0;
+
+    *unfit = 0;
+    l->stats.cost = (pf_solver_cost){0};
+    if (!l->instance[method] && solver->create(&l->instance[method], l->n_thread, why, sizeof why))
+        return error_set(err, ERR_MEMORY, "linear solver %s: %s", solver->name, why);
+    status = solver->analyze(l->instance[method], &l->a, &l->stats.cost, why, sizeof why);
+    l->stats.analyze_seconds += clock_seconds() - t;
+    *unfit = status == PF_SOLVER_UNFIT;
+    if (status)
+        return error_set(err,
+                         status == PF_SOLVER_MEMORY ? ERR_MEMORY
+                         : *unfit                   ? ERR_CASE
+                                                    : ERR_CONVERGE,
+                         "linear solver %s: %s", solver->name, why);
+    if (l->memory_limit > 0 && l->memory_limit < memory)
+        memory = l->memory_limit;
+    if (l->stats.cost.bytes > memory)
+        return error_set(
+            err, ERR_MEMORY,
+            "linear solver %s will need %.3g GB for %lld unknowns and there are %.3g GB: take fewer cells "
+            "(%.0f %% in each direction would fit), a 2D or symmetric part of the problem, or a machine "
+            "with more memory%s%s",
+            solver->name, l->stats.cost.bytes / 1e9, (long long)l->a.n, memory / 1e9,
+            100 * pow(memory / l->stats.cost.bytes, 0.25), *l->stats.why ? "; the iterative solver: " : "",
+            l->stats.why);
+    l->at = method;
+    l->analyzed = 1;
+    return 0;
+}
+
+/* Operations of a sparse factorisation of Taylor-Hood elements after nested dissection: n^(3/2) in 2D, n^2 in 3D;
+ * the factors were measured (docs/performance.md). */
+static double guess_flops(const linear *l)
+{
+    double n = (double)l->a.n;
+
+    return l->space->mesh->dim == 2 ? 210 * pow(n, 1.5) : 26 * n * n;
+}
+
+int linear_predict(linear *l, error *err)
+{
+    error ignored;
+    int unfit, status;
+
+    l->stats.direct_flops = 0;
+    if (!l->choice.direct)
+        return linear_analyze(l, METHOD_ITERATIVE, &unfit, err);
+    if (l->choice.iterative && !l->gave_up && guess_flops(l) > MANY_FLOPS) {
+        status = linear_analyze(l, METHOD_ITERATIVE, &unfit, &ignored);
+        l->stats.direct_flops = guess_flops(l);
+        if (!status)
+            return 0;
+        snprintf(l->stats.why, sizeof l->stats.why, "%.*s", (int)sizeof l->stats.why - 1, ignored.text);
+        l->stats.direct_flops = 0;
+    }
+    return linear_analyze(l, METHOD_DIRECT, &unfit, err);
+}

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * linear.h -- linear systems: which solver, and the reuse of what it has set up. */
+#ifndef SOLVE_LINEAR_H
+#define SOLVE_LINEAR_H
+
+#include "base/warning.h"
+#include "solve/band.h"
+#include "solve/gmres.h"
+#include "solve/unknowns.h"
+
+#define LINEAR_ACCEPT 1e-10
+enum { LINEAR_MAX_ITERATIONS = 30 }; /* of GMRES with the factors of an earlier matrix */
+
+/* Solvers to take: one, or a factorisation and one that iterates, of which the prediction chooses. */
+typedef struct linear_choice {
+    const pf_solver *direct, *iterative; /* NULL: not that one */
+} linear_choice;
+
+typedef struct linear_stats {
+    int factorisations, gmres_iterations, solves;
+    int band_factorisations; /* of the band alone, see band.h                             */
+    double largest_b;      /* norm of the largest right-hand side                       */
+    double worst_residual; /* largest |b - A x| / |b| by fresh factors; of last corrections, small as b is,
+                            * relative to 1e-8 of the largest |b| */
+    double factor_seconds, solve_seconds, analyze_seconds;
+    pf_solver_cost cost; /* of the solver in use                */
+    double direct_flops; /* of a factorisation, as it was guessed where it was not analysed; 0: it was */
+    char why[200];       /* the iterative solver is not in use; empty: nobody asked */
+} linear_stats;
+
+enum { METHOD_DIRECT, METHOD_ITERATIVE, N_METHOD };
+
+typedef struct linear {
+    linear_choice choice;
+    void *instance[N_METHOD]; /* of the solvers, made when they are needed */
+    int at;                   /* the method in use, once analysed          */
+    const space *space;
+    pf_csr a;
+    double *value;
+    int n_thread;
+    int analyzed, factored;    /* factored: something was set up, perhaps of an older matrix */
+    int fresh;                 /* it is of the matrix of the last solve ...      */
+    int kept;                  /* ... and the next one has the same              */
+    int gave_up;               /* the iterative solver failed once               */
+    int max_iterations;        /* of GMRES with old factors; 0: factor every matrix        */
+    int spent;                 /* GMRES iterations since the last factorisation, beyond what fresh ones take */
+    int usual;                 /* iterations of the iterative solver, freshly set up */
+    double memory_limit;       /* bytes                                                    */
+    const double *field_scale; /* [n_field] unless NULL: residuals count relative to these in an iteration */
+    double *row_scale;         /* [n] their inverses by rows */
+    unknowns rows;
+    const int64_t *pin; /* [n_field] row of the value that is held of a free field, or -1 */
+    band band;          /* where bodies have moved since the last factorisation */
+    gmres krylov;
+    double *r; /* [n] b - A x of the last solve */
+    linear_stats stats;
+    warning_list *warnings; /* NULL: nobody listens */
+    arena memory;           /* of this pattern */
+} linear;
+
+int linear_create(linear *l, const linear_choice *choice, const space *s, int n_thread, error *err);
+/* The pattern of the space is another one. */
+int linear_renew(linear *l, error *err);
+/* Before a solution: unknowns that are off [n_dof]; fields with a free constant [n_field], their integrals [n_dof]
+ * each, and the row of each that a factorisation holds. */
+int linear_tell(linear *l, const uint8_t *idle, const int *free_fields, const double *const *integral,
+                const int64_t *pin, error *err);
+/* Solves A x = b to |b - A x| <= tol |b|: with what is set up, as preconditioner of GMRES, if that pays, else with
+ * a fresh set-up.  A fresh factorisation passes whatever tol is, unless it is useless.  An iterative solver that
+ * does not reach tol is replaced by the factorisation, with a warning.  Of free fields one value is held, in the
+ * matrix and in b, if a factorisation solves.
+ * Errors: ERR_CONVERGE with err->retry if the matrix is singular or nearly so; ERR_PLUGIN if the solver does not
+ * solve. */
+int linear_solve(linear *l, double *b, double *x, double tol, error *err);
+/* The next linear_solve has the matrix of the last one: it is not set up a second time. */
+void linear_keep(linear *l);
+/* Chooses a solver and analyses the pattern: fills stats.cost; ERR_MEMORY if it will not fit. */
+int linear_predict(linear *l, error *err);
+/* x = what is set up makes of b, right or not; an iterative solver reduces the residual to about a tenth. */
+int linear_apply(linear *l, double *b, double *x, error *err);
+void linear_forget(linear *l); /* the next solve sets up afresh */
+/* Bodies are elsewhere: factors of before are of use as band.h says, if at all. */
+int linear_move(linear *l, const body_points *now, error *err);
+const pf_solver *linear_solver(const linear *l); /* the one in use; NULL before it is chosen */
+void linear_destroy(linear *l);
+int linear_approximates(const pf_solver *s); /* PF_SOLVER_APPROXIMATE */
+
+/* --- between the files of this folder --- */
+
+const pf_solver *linear_method(const linear *l, int method);
+/* Analysis by one method: the error says what went wrong, *unfit: only that this solver is not for such systems. */
+int linear_analyze(linear *l, int method, int *unfit, error *err);
+
+#endif
