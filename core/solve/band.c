@@ -147,7 +147,7 @@ static int take_matrix(band *b, const pf_csr *a, error *err)
         for (int64_t e = a->row[i]; e < a->row[i + 1]; e++) {
             int32_t j = b->number[a->col[e]];
 
-            if (j < 0)
+            if (j < 0 || (b->space->unused && b->space->unused[e]))
                 continue;
             b->col[n] = j;
             b->value[n++] = a->value[e];

@@ -105,6 +105,7 @@ void linear_destroy(linear *l)
             linear_method(l, m)->destroy(l->instance[m]);
     gmres_destroy(&l->krylov);
     band_destroy(&l->band);
+    packed_destroy(&l->packed);
     arena_free(&l->memory);
     memset(l, 0, sizeof *l);
 }
@@ -146,7 +147,8 @@ static int set_up(linear *l, error *err)
 
     solver = linear_method(l, l->at);
     t = clock_seconds();
-    status = solver->setup(l->instance[l->at], &l->a, why, sizeof why);
+    packed_values(&l->packed, l->space, &l->a);
+    status = solver->setup(l->instance[l->at], l->at == METHOD_DIRECT ? &l->packed.a : &l->a, why, sizeof why);
     l->stats.factor_seconds += clock_seconds() - t;
     l->stats.factorisations++;
     l->spent = 0;
@@ -283,6 +285,7 @@ static int solve_moved(linear *l, double *b, double *x, double tol, int *done, e
 static int solve_by_factors(linear *l, double *b, double *x, double tol, error *err)
 {
     double reached, size, solve_flops = 4 * l->stats.cost.fill;
+    int unfit;
 
     prepare(l, b, 0);
     if (l->factored && !l->fresh && tol > 0 && l->spent * solve_flops < l->stats.cost.flops) {
@@ -294,6 +297,8 @@ static int solve_by_factors(linear *l, double *b, double *x, double tol, error *
         if (reached <= 1.01 * tol)
             return 0;
     }
+    if (!l->fresh && !packed_holds(&l->packed, l->space))
+        TRY(linear_analyze(l, METHOD_DIRECT, &unfit, err));
     if (!l->fresh)
         TRY(set_up(l, err));
     TRY(iterate(l, b, x, LINEAR_ACCEPT, 1, &reached, err));

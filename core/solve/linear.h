@@ -7,6 +7,7 @@
 #include "base/warning.h"
 #include "solve/band.h"
 #include "solve/gmres.h"
+#include "solve/packed.h"
 #include "solve/unknowns.h"
 
 #define LINEAR_ACCEPT 1e-10
@@ -52,6 +53,7 @@ typedef struct linear {
     unknowns rows;
     const int64_t *pin; /* [n_field] row of the value that is held of a free field, or -1 */
     band band;          /* where bodies have moved since the last factorisation */
+    packed packed;      /* the matrix as it is factored */
     gmres krylov;
     double *r; /* [n] b - A x of the last solve */
     linear_stats stats;
