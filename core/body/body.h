@@ -83,10 +83,10 @@ typedef struct envelope {
     int32_t *first_tie;  /* [n_cell] first tie of a bad cell in space.tie, or -1      */
     int32_t *next_tie;   /* [space.n_tie] next tie of the same cell                   */
     int64_t next_tie_room;
-    double margin;          /* of the attached cells, in sizes of a cell */
-    int restricted;         /* some field has its unknowns at them only  */
+    double margin;           /* of the attached cells, in sizes of a cell */
+    int restricted;          /* some field has its unknowns at them only  */
     int32_t (*neighbour)[6]; /* [n_cell] cells that share a facet, -1: no more; NULL: there are no ties */
-    long made;              /* how often cells were attached */
+    long made;               /* how often cells were attached */
     arena memory;
 } envelope;
 

@@ -10,15 +10,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Margins of the attached cells, in sizes of a cell; no round numbers: bodies often lie along the lines of the mesh.
- * The narrow one where restricted unknowns at all of them would make the matrix larger, and where bodies are near to
- * more than a part of all cells: some new tie changes the pattern in every step then, and room for all of them would
- * make it much larger. */
+/* Margins of the attached cells, in sizes of a cell; no round numbers: bodies often lie along the lines of the
+ * mesh. The narrow one where restricted unknowns at all of them would make the matrix larger, and where bodies are
+ * near to more than a part of all cells: some new tie changes the pattern in every step then, and room for all of
+ * them would make it much larger. */
 #define MARGIN 3.57
 #define NARROW 1.57
 #define FEW    0.2
 /* What of it a body needs for the cells that it is near to. */
-#define NEEDED 0.62
+#define NEEDED 0.32
 
 /* Cells that share a facet with e, by the nodes that they have in common with it; `of` lists the cells at nodes. */
 static void find_neighbours(const space *s, const int64_t *start, const int32_t *of, int64_t e, uint8_t *common,
@@ -99,7 +99,8 @@ int envelope_near(const bodies *b, const placement *p, int64_t attached, double 
     double reach = body->shape->radius + margin * b->h_mean, d = 0;
 
     for (int i = 0; i < b->space->mesh->dim; i++) {
-        double x = body->at.x[i] + b->envelope.shift[attached][i], off = fmax(fmax(box[0][i] - x, x - box[1][i]), 0);
+        double x = body->at.x[i] + b->envelope.shift[attached][i],
+               off = fmax(fmax(box[0][i] - x, x - box[1][i]), 0);
 
         d += off * off;
     }
@@ -135,8 +136,8 @@ static int64_t list_pairs(bodies *b, const pose *at, int32_t *cell, int32_t *bod
     for (int k = 0; k < b->n; k++)
         for (int j = 0; j < b->n_image; j++) {
             double x[3] = {at[k].x[0] + b->image[j][0], at[k].x[1] + b->image[j][1], at[k].x[2] + b->image[j][2]};
-            int64_t here = cell_grid_ball(b->grid, x, b->spec[k].shape.radius + b->envelope.margin * b->h_mean,
-                                          b->near_cell);
+            int64_t here =
+                cell_grid_ball(b->grid, x, b->spec[k].shape.radius + b->envelope.margin * b->h_mean, b->near_cell);
 
             for (int64_t i = 0; cell && i < here; i++) {
                 cell[n + i] = b->near_cell[i];

@@ -21,9 +21,9 @@ typedef struct linear_choice {
 typedef struct linear_stats {
     int factorisations, gmres_iterations, solves;
     int band_factorisations; /* of the band alone, see band.h                             */
-    double largest_b;      /* norm of the largest right-hand side                       */
-    double worst_residual; /* largest |b - A x| / |b| by fresh factors; of last corrections, small as b is,
-                            * relative to 1e-8 of the largest |b| */
+    double largest_b;        /* norm of the largest right-hand side                       */
+    double worst_residual;   /* largest |b - A x| / |b| by fresh factors; of last corrections, small as b is,
+                              * relative to 1e-8 of the largest |b| */
     double factor_seconds, solve_seconds, analyze_seconds;
     pf_solver_cost cost; /* of the solver in use                */
     double direct_flops; /* of a factorisation, as it was guessed where it was not analysed; 0: it was */

@@ -155,7 +155,8 @@ static int locate_tie(const space *s, int64_t tie)
 
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
-            int32_t a = space_carrier(s, space_tie_group(s, tie), i), b = space_carrier(s, space_tie_group(s, tie), j);
+            int32_t a = space_carrier(s, space_tie_group(s, tie), i),
+                    b = space_carrier(s, space_tie_group(s, tie), j);
 
             pair[i * n + j] = -1;
             if (s->node_free[a] == s->node_free[a + 1] || s->node_free[b] == s->node_free[b + 1])

@@ -54,7 +54,8 @@ static int32_t carrier_of(const space *s, int64_t g, int i)
 {
     int n = s->mesh->type->n_node;
 
-    return g < space_groups(s) ? space_carrier(s, g, i) : space_carrier(s, s->spare[g - space_groups(s)][i / n], i % n);
+    return g < space_groups(s) ? space_carrier(s, g, i)
+                               : space_carrier(s, s->spare[g - space_groups(s)][i / n], i % n);
 }
 
 /* Groups of each carrier, in compressed lists. */
@@ -119,6 +120,25 @@ static void locate_pairs(space *s, const int64_t *start, const int32_t *cell, in
     }
 }
 
+/* Rows of carrier c, from entry `at` on, and with offsets their columns; returns where they end. */
+static int64_t write_rows(space *s, int64_t c, const int32_t *list, int64_t n, int64_t width, const int32_t *offset,
+                          const uint8_t *seen, int64_t at)
+{
+    for (int64_t r = s->node_free[c]; r < s->node_free[c + 1]; r++) {
+        s->row[r] = at;
+        for (int64_t k = 0; offset && k < n; k++)
+            for (int64_t f = s->node_free[list[k]]; f < s->node_free[list[k] + 1]; f++) {
+                int64_t entry = at + offset[list[k]] + f - s->node_free[list[k]];
+
+                s->col[entry] = f;
+                if (s->unused)
+                    s->unused[entry] = seen[list[k]] == 2;
+            }
+        at += width;
+    }
+    return at;
+}
+
 int space_constrain(space *s, error *err)
 {
     arena scratch = {0};
@@ -158,18 +178,7 @@ int space_constrain(space *s, error *err)
             }
             if (pass)
                 locate_pairs(s, start, cell, c, offset);
-            for (int64_t r = s->node_free[c]; r < s->node_free[c + 1]; r++) {
-                s->row[r] = at;
-                for (int64_t k = 0; pass && k < n; k++)
-                    for (int64_t f = s->node_free[list[k]]; f < s->node_free[list[k] + 1]; f++) {
-                        int64_t entry = at + offset[list[k]] + f - s->node_free[list[k]];
-
-                        s->col[entry] = f;
-                        if (s->unused)
-                            s->unused[entry] = seen[list[k]] == 2;
-                    }
-                at += width;
-            }
+            at = write_rows(s, c, list, n, width, pass ? offset : NULL, seen, at);
             for (int64_t k = 0; k < n; k++) {
                 offset[list[k]] = -1;
                 seen[list[k]] = 0;

@@ -63,11 +63,11 @@ typedef struct space {
     int64_t *row, *col; /* [n_free + 1], [row[n_free]]                                */
     int32_t *pair;      /* of each group [size^2]: offset of carrier j's columns in
                                  the rows of carrier i, or -1                               */
-    int32_t *tie_pair; /* the same of ties */
+    int32_t *tie_pair;  /* the same of ties */
     int64_t tie_pair_room;
     uint8_t *unused; /* [row[n_free]] 1: an entry that no group has, but a spare pair; NULL: there are none */
     int claims;      /* how often a tie has taken such entries  */
-    int outdated; /* groups have changed since the pattern was built */
+    int outdated;    /* groups have changed since the pattern was built */
     arena memory, attached_memory, pattern_memory;
 } space;
 
