@@ -31,16 +31,36 @@ static void print_conditions(const problem *p)
     }
 }
 
+/* Which linear solver, and its predicted price. */
+static void print_solver(const linear *l)
+{
+    const pf_solver_cost *c = &l->stats.cost;
+
+    if (!linear_approximates(linear_solver(l))) {
+        printf(
+            "  linear solver: %s; factors (predicted): %.3g entries, %.3g MB, %.3g operations, about %.2g s each\n",
+            linear_solver(l)->name, c->fill, c->bytes / 1e6, c->flops, c->flops / 1e10);
+        if (*l->stats.why)
+            printf("    not the iterative one: %s\n", l->stats.why);
+        return;
+    }
+    printf(
+        "  linear solver: %s, iterative (predicted): %.3g MB, %.3g operations of a set-up, %.3g of an iteration\n",
+        linear_solver(l)->name, c->bytes / 1e6, c->flops, 4 * c->fill);
+    if (l->stats.direct_flops > 0)
+        printf("    a factorisation would take about %.2g operations\n", l->stats.direct_flops);
+}
+
 static int check(const problem *p, const linear *l, int json)
 {
     double matrix = 16.0 * (double)p->space.row[p->space.n_free];
 
     if (json) {
         printf("{\"cells\": %lld, \"unknowns\": %lld, \"free_unknowns\": %lld, \"matrix_entries\": %lld, "
-               "\"factor_entries\": %.6g, \"factor_bytes\": %.6g, \"factor_flops\": %.6g}\n",
+               "\"solver\": \"%s\", \"factor_entries\": %.6g, \"factor_bytes\": %.6g, \"factor_flops\": %.6g}\n",
                (long long)p->mesh.n_cell, (long long)p->space.n_dof, (long long)p->space.n_free,
-               (long long)p->space.row[p->space.n_free], l->stats.cost.fill, l->stats.cost.bytes,
-               l->stats.cost.flops);
+               (long long)p->space.row[p->space.n_free], linear_solver(l)->name, l->stats.cost.fill,
+               l->stats.cost.bytes, l->stats.cost.flops);
         return 0;
     }
     printf("%s: ok\n", p->description.c->path);
@@ -56,8 +76,7 @@ static int check(const problem *p, const linear *l, int json)
     print_conditions(p);
     printf("  unknowns: %lld, of which %lld are free; matrix: %lld entries, %.3g MB\n", (long long)p->space.n_dof,
            (long long)p->space.n_free, (long long)p->space.row[p->space.n_free], matrix / 1e6);
-    printf("  factors (predicted): %.3g entries, %.3g MB, %.3g operations, about %.2g s each\n", l->stats.cost.fill,
-           l->stats.cost.bytes / 1e6, l->stats.cost.flops, l->stats.cost.flops / 1e10);
+    print_solver(l);
     return 0;
 }
 

@@ -83,6 +83,8 @@ static int find_solvers(const problem *p, registry *r, linear_choice *c, error *
     const pf_solver *s;
     error ignored;
 
+    for (int k = 0; k < p->description.n_body && p->description.time.unsteady; k++)
+        c->each_step |= p->description.body[k].motion != BODY_FIXED;
     if (named) {
         plain = strncmp(named, "solver_", 7) == 0 ? named + 7 : named;
         snprintf(name, sizeof name, "solver_%s", plain);

@@ -76,6 +76,10 @@ static void add_counts(const problem *p, const run_result *q, text *t)
     if (p->bodies.n)
         number(t, "patterns", (double)p->bodies.patterns);
     number(t, "worst_linear_residual", l->worst_residual);
+    if (linear_solver(&p->system.linear)) {
+        text_add(t, ",\n  \"linear_solver\": ");
+        text_json(t, linear_solver(&p->system.linear)->name);
+    }
     text_add(t, ",\n  \"predicted\": {\"factor_bytes\": ");
     text_number(t, l->cost.bytes);
     text_add(t, ", \"factor_flops\": ");

@@ -8,8 +8,10 @@
 #include <stdio.h>
 #include <unistd.h>
 
-/* Operations of a factorisation from which an iterative solver is worth a try: a second or two. */
-#define MANY_FLOPS 2e10
+/* Operations of a factorisation from which an iterative solver is taken: some seconds where one serves for many
+ * solutions, some tenths where every step has its own. */
+#define MANY_FLOPS           6e10
+#define MANY_FLOPS_EACH_STEP 1.5e9
 
 static double available_memory(void)
 {
@@ -74,18 +76,19 @@ static double guess_flops(const linear *l)
 {
     double n = (double)l->a.n;
 
-    return l->space->mesh->dim == 2 ? 210 * pow(n, 1.5) : 26 * n * n;
+    return l->space->mesh->dim == 2 ? 180 * pow(n, 1.5) : 45 * n * n;
 }
 
 int linear_predict(linear *l, error *err)
 {
     error ignored;
+    double many = l->choice.each_step ? MANY_FLOPS_EACH_STEP : MANY_FLOPS;
     int unfit, status;
 
     l->stats.direct_flops = 0;
     if (!l->choice.direct)
         return linear_analyze(l, METHOD_ITERATIVE, &unfit, err);
-    if (l->choice.iterative && !l->gave_up && guess_flops(l) > MANY_FLOPS) {
+    if (l->choice.iterative && !l->gave_up && guess_flops(l) > many) {
         status = linear_analyze(l, METHOD_ITERATIVE, &unfit, &ignored);
         l->stats.direct_flops = guess_flops(l);
         if (!status)

@@ -21,11 +21,15 @@ void gmres_multiply(const gmres *g, const double *x, double *y)
     }
 }
 
-void gmres_operate(const gmres *g, double *x, double *y)
+/* y = P A L x with the projections; x is levelled in place.  exact: not by an approximate product. */
+static void operate(const gmres *g, int exact, double *x, double *y)
 {
     if (g->level)
         g->level(g->ctx, x);
-    gmres_multiply(g, x, y);
+    if (g->multiply && !exact)
+        g->multiply(g->ctx, x, y);
+    else
+        gmres_multiply(g, x, y);
     if (g->project)
         g->project(g->ctx, y);
 }
@@ -79,7 +83,7 @@ static int extend(gmres *g, int k, double *h, error *err)
     for (int64_t i = 0; i < n; i++)
         unscaled[i] = g->scale ? g->v[k][i] / g->scale[i] : g->v[k][i];
     TRY(g->apply(g->ctx, unscaled, g->z[k], err));
-    gmres_operate(g, g->z[k], w);
+    operate(g, 0, g->z[k], w);
     scale_rows(g, w);
     for (int i = 0; i <= k; i++) {
         h[i] = vector_dot(n, w, g->v[i]);
@@ -130,7 +134,7 @@ int gmres_solve(gmres *g, const double *b, double *x, double tol, int limit, dou
         y[i] /= h[i][i];
         vector_add(n, y[i], g->z[i], x);
     }
-    gmres_operate(g, x, g->r);
+    operate(g, 1, x, g->r);
     vector_subtract(n, b, g->r);
     memcpy(g->v[0], g->r, (size_t)n * sizeof *b);
     scale_rows(g, g->v[0]);

@@ -17,6 +17,8 @@ typedef struct gmres {
     int n_thread;
     const double *scale;
     int (*apply)(void *ctx, const double *b, double *x, error *err); /* x = about A^-1 b */
+    void (*multiply)(void *ctx, const double *x,
+                     double *y); /* y = about A x inside of the iteration; NULL: A itself */
     /* Projections of a singular system, unless NULL: of residuals, of solutions, in place. */
     void (*project)(void *ctx, double *rows);
     void (*level)(void *ctx, double *x);
@@ -32,8 +34,6 @@ int gmres_solve(gmres *g, const double *b, double *x, double tol, int limit, dou
                 error *err);
 /* y = A x */
 void gmres_multiply(const gmres *g, const double *x, double *y);
-/* Once applied with the projections: y = P A L x, where x is levelled in place. */
-void gmres_operate(const gmres *g, double *x, double *y);
 void gmres_destroy(gmres *g);
 
 #endif

@@ -25,6 +25,9 @@
 /* Iterations that a freshly set up iterative solver may take. */
 enum { ITERATIVE_MOST = 150 };
 
+/* Part of the residual at which an iteration begins anew: far above round-off in single precision. */
+#define ROUND 1e-3
+
 /* An iterative solver is set up anew where it takes so many more iterations than usual. */
 enum { TIRED = 6 };
 
@@ -59,9 +62,20 @@ static void level(void *linear_, double *x)
     unknowns_level(&l->rows, l->space, x);
 }
 
+/* The solver knows of this member, which early ones do not, and has it. */
+#define has(solver, member)                                                                                        \
+    ((solver)->size >= offsetof(pf_solver, member) + sizeof(solver)->member && (solver)->member)
+
 int linear_approximates(const pf_solver *s)
 {
-    return s->size >= sizeof *s && (s->flags & PF_SOLVER_APPROXIMATE);
+    return has(s, flags) && (s->flags & PF_SOLVER_APPROXIMATE);
+}
+
+static void multiply(void *linear_, const double *x, double *y)
+{
+    linear *l = linear_;
+
+    linear_method(l, l->at)->multiply(l->instance[l->at], x, y);
 }
 
 static int approximates(const linear *l)
@@ -76,13 +90,14 @@ int linear_renew(linear *l, error *err)
     arena_free(&l->memory);
     gmres_destroy(&l->krylov);
     l->analyzed = l->factored = l->fresh = l->kept = 0;
-    l->field_scale = NULL;
+    l->row_scale = NULL;
     l->a = (pf_csr){.n = s->n_free, .row = s->row, .col = s->col, .n_node = s->n_row_node, .node = s->row_node};
     l->max_iterations = s->mesh->dim == 2 ? 12 : LINEAR_MAX_ITERATIONS;
     ARENA_NEW(&l->memory, l->value, s->row[s->n_free], err);
     l->a.value = l->value;
     ARENA_NEW(&l->memory, l->r, s->n_free, err);
-    ARENA_NEW(&l->memory, l->row_scale, s->n_free, err);
+    ARENA_NEW(&l->memory, l->b, s->n_free, err);
+    ARENA_NEW(&l->memory, l->dx, s->n_free, err);
     TRY(unknowns_create(&l->rows, &l->memory, s, err));
     l->a.unknowns = &l->rows.view;
     l->krylov = (gmres){.a = &l->a, .n_thread = l->n_thread, .apply = precondition, .ctx = l, .r = l->r};
@@ -197,22 +212,15 @@ static void hold(linear *l, double *b)
     }
 }
 
-/* The iteration has residuals as the caller measures them, and leaves free constants alone. */
+/* In an iteration residuals of different fields compare, and free constants are left alone. */
 static void prepare(linear *l, double *b, int approximate)
 {
-    l->krylov.scale = NULL;
     l->krylov.project = approximate ? project : NULL;
     l->krylov.level = approximate ? level : NULL;
+    l->krylov.multiply = approximate && has(linear_method(l, l->at), multiply) ? multiply : NULL;
+    l->krylov.scale = approximate ? l->row_scale : NULL;
     if (!approximate)
         hold(l, b);
-    if (!approximate || !l->field_scale)
-        return;
-    for (int64_t i = 0; i < l->a.n; i++) {
-        double s = l->field_scale[l->rows.view.field_of[i]];
-
-        l->row_scale[i] = s > 0 ? 1 / s : 1;
-    }
-    l->krylov.scale = l->row_scale;
 }
 
 int linear_apply(linear *l, double *b, double *x, error *err)
@@ -341,16 +349,55 @@ static int replace(linear *l, double *b, double *x, double tol, double reached, 
     return solve_by_factors(l, b, x, tol, err);
 }
 
+/* Solves with what is set up.  The iteration is stopped every now and then and goes on from the residual as it
+ * really is: its own product may be one in single precision, and what is begun anew there costs hardly an iteration
+ * more. */
+static int refine(linear *l, const double *b, double *x, double tol, int limit, double *reached, error *err)
+{
+    int64_t n = l->a.n;
+    int had = l->stats.gmres_iterations;
+    double last;
+
+    memset(x, 0, (size_t)n * sizeof *x);
+    memcpy(l->b, b, (size_t)n * sizeof *b);
+    *reached = 1;
+    do {
+        double part;
+
+        last = *reached;
+        TRY(iterate(l, l->b, l->dx, fmax(tol / last, ROUND), limit - (l->stats.gmres_iterations - had), &part,
+                    err));
+        *reached *= part;
+        vector_add(n, 1, l->dx, x);
+        memcpy(l->b, l->r, (size_t)n * sizeof *l->b);
+    } while (*reached > tol && *reached < 0.5 * last && l->stats.gmres_iterations - had < limit);
+    return 0;
+}
+
+/* The matrix is another one than that of the last set-up. */
+static int update(linear *l, error *err)
+{
+    const pf_solver *solver = linear_method(l, l->at);
+    char why[400] = "";
+    double t = clock_seconds();
+    int status = has(solver, update) ? solver->update(l->instance[l->at], &l->a, why, sizeof why) : 0;
+
+    l->stats.factor_seconds += clock_seconds() - t;
+    return status ? error_set(err, ERR_MEMORY, "linear solver %s: %s", solver->name, why) : 0;
+}
+
 static int solve_by_iteration(linear *l, double *b, double *x, double tol, error *err)
 {
     double reached = INFINITY, solve_flops = 4 * l->stats.cost.fill;
     int had = l->stats.gmres_iterations;
 
+    TRY(linear_measure(l, err));
     prepare(l, b, 1);
     if (l->factored && !l->fresh && l->spent * solve_flops < l->stats.cost.flops) {
         int spent = l->spent;
 
-        TRY(iterate(l, b, x, tol, 2 * l->usual + TIRED, &reached, err));
+        TRY(update(l, err));
+        TRY(refine(l, b, x, tol, 2 * l->usual + TIRED, &reached, err));
         had = l->stats.gmres_iterations - had;
         l->spent = spent + (had > l->usual ? had - l->usual : 0);
         if (reached <= 1.01 * tol)
@@ -359,7 +406,7 @@ static int solve_by_iteration(linear *l, double *b, double *x, double tol, error
     if (!l->fresh)
         TRY(set_up(l, err));
     had = l->stats.gmres_iterations;
-    TRY(iterate(l, b, x, tol, ITERATIVE_MOST, &reached, err));
+    TRY(refine(l, b, x, tol, ITERATIVE_MOST, &reached, err));
     l->usual = l->stats.gmres_iterations - had;
     l->spent = 0;
     l->stats.worst_residual = fmax(l->stats.worst_residual, reached);

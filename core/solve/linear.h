@@ -16,6 +16,7 @@ enum { LINEAR_MAX_ITERATIONS = 30 }; /* of GMRES with the factors of an earlier 
 /* Solvers to take: one, or a factorisation and one that iterates, of which the prediction chooses. */
 typedef struct linear_choice {
     const pf_solver *direct, *iterative; /* NULL: not that one */
+    int each_step;                       /* bodies move: every step has a matrix that old factors are far from */
 } linear_choice;
 
 typedef struct linear_stats {
@@ -40,22 +41,22 @@ typedef struct linear {
     pf_csr a;
     double *value;
     int n_thread;
-    int analyzed, factored;    /* factored: something was set up, perhaps of an older matrix */
-    int fresh;                 /* it is of the matrix of the last solve ...      */
-    int kept;                  /* ... and the next one has the same              */
-    int gave_up;               /* the iterative solver failed once               */
-    int max_iterations;        /* of GMRES with old factors; 0: factor every matrix        */
-    int spent;                 /* GMRES iterations since the last factorisation, beyond what fresh ones take */
-    int usual;                 /* iterations of the iterative solver, freshly set up */
-    double memory_limit;       /* bytes                                                    */
-    const double *field_scale; /* [n_field] unless NULL: residuals count relative to these in an iteration */
-    double *row_scale;         /* [n] their inverses by rows */
+    int analyzed, factored; /* factored: something was set up, perhaps of an older matrix */
+    int fresh;              /* it is of the matrix of the last solve ...      */
+    int kept;               /* ... and the next one has the same              */
+    int gave_up;            /* the iterative solver failed once               */
+    int max_iterations;     /* of GMRES with old factors; 0: factor every matrix        */
+    int spent;              /* GMRES iterations since the last factorisation, beyond what fresh ones take */
+    int usual;              /* iterations of the iterative solver, freshly set up */
+    double memory_limit;    /* bytes                                                    */
+    double *row_scale;      /* [n] their inverses by rows */
     unknowns rows;
     const int64_t *pin; /* [n_field] row of the value that is held of a free field, or -1 */
     band band;          /* where bodies have moved since the last factorisation */
     packed packed;      /* the matrix as it is factored */
     gmres krylov;
-    double *r; /* [n] b - A x of the last solve */
+    double *b, *dx; /* [n] room of the refinement */
+    double *r;      /* [n] b - A x of the last solve */
     linear_stats stats;
     warning_list *warnings; /* NULL: nobody listens */
     arena memory;           /* of this pattern */
@@ -90,6 +91,8 @@ int linear_approximates(const pf_solver *s); /* PF_SOLVER_APPROXIMATE */
 
 /* --- between the files of this folder --- */
 
+/* row_scale, from the matrix. */
+int linear_measure(linear *l, error *err);
 const pf_solver *linear_method(const linear *l, int method);
 /* Analysis by one method: the error says what went wrong, *unfit: only that this solver is not for such systems. */
 int linear_analyze(linear *l, int method, int *unfit, error *err);

@@ -165,7 +165,6 @@ static int correct(iterate *it, int k, error *err)
 
     vector_negative(s->space, s->residual, s->rhs);
     TRY(gauge_tell(s, err));
-    s->linear.field_scale = it->scale;
     if (it->solved)
         linear_keep(&s->linear);
     status = linear_solve(&s->linear, s->rhs, s->step, it->o->linear_tolerance, err);

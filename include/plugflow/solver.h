@@ -81,6 +81,11 @@ typedef struct pf_solver {
     int (*solve)(void *self, const double *b, double *x, char *err, size_t nerr);
     void (*destroy)(void *self);
     uint32_t flags; /* enum pf_solver_flag; of solvers built before there were any: 0 */
+    /* Both may be NULL.  update: another matrix on the same pattern; what was set up stays, and solve() goes on
+     * with it.  multiply: y = A x for the last matrix of setup or update, in the solver's own precision, which is
+     * enough inside of the iteration; the kernel then corrects the result by its own residual. */
+    int (*update)(void *self, const pf_csr *matrix, char *err, size_t nerr);
+    void (*multiply)(void *self, const double *x, double *y);
 } pf_solver;
 
 typedef const pf_solver *pf_solver_entry_fn(char *err, size_t nerr);

@@ -1,0 +1,385 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "levels.h"
+
+#include <umfpack.h>
+
+#include <math.h>
+#include <string.h>
+
+enum { COARSEST = 500 }; /* blocks */
+#define STRENGTH 0.02
+
+/* The block of a field (and of a component) at a node, or -1. */
+static int32_t block_at(const split *s, int64_t group, int field, int slot)
+{
+    for (int64_t r = s->a->node[group]; r < s->a->node[group + 1]; r++)
+        if (s->a->unknowns->field_of[r] == field && s->block[r] >= 0 && s->slot[r] == slot)
+            return s->block[r];
+    return -1;
+}
+
+/* Any row of a block. */
+static int64_t some_row(const split *s, int32_t i)
+{
+    int c = 0;
+
+    while (s->row_of[(int64_t)i * s->b + c] < 0)
+        c++;
+    return s->row_of[(int64_t)i * s->b + c];
+}
+
+/* Velocities from linear functions: vertices and what is no node stay, other nodes lie between their parents. */
+static void from_vertices(levels *l)
+{
+    const split *s = l->s;
+    const pf_unknowns *u = s->a->unknowns;
+    sparse *q = &l->prolong;
+    int32_t *coarse;
+
+    TAKE(&l->memory, coarse, s->f.n + 1);
+    TAKE(&l->memory, q->row, s->f.n + 1);
+    TAKE(&l->memory, q->col, (int64_t)s->f.n * 8 + 1);
+    TAKE(&l->memory, q->value, (int64_t)s->f.n * 8 + 1);
+    if (l->memory.failed)
+        return;
+    q->n = s->f.n;
+    for (int32_t i = 0; i < s->f.n; i++)
+        coarse[i] = u->parent[s->group[i] + 1] == u->parent[s->group[i]] ? q->n_col++ : -1;
+    for (int32_t i = 0; i < s->f.n; i++) {
+        int64_t g = s->group[i], n = q->row[i], row = some_row(s, i);
+
+        if (coarse[i] >= 0) {
+            q->col[n] = coarse[i];
+            q->value[n++] = 1;
+        }
+        for (int64_t k = u->parent[g]; coarse[i] < 0 && k < u->parent[g + 1]; k++) {
+            int32_t from = block_at(s, u->parent_node[k], u->field_of[row], s->slot[row]);
+
+            if (from < 0 || coarse[from] < 0)
+                continue;
+            q->col[n] = coarse[from];
+            q->value[n++] = u->parent_weight[k];
+        }
+        q->row[i + 1] = n;
+    }
+}
+
+/* Places of the next level that take part: those that some place of this one is interpolated from. */
+static void activate(const sparse *prolong, const uint8_t *fine, int b, uint8_t *coarse)
+{
+    for (int32_t i = 0; i < prolong->n; i++)
+        for (int64_t k = prolong->row[i]; k < prolong->row[i + 1]; k++)
+            for (int c = 0; c < b; c++)
+                coarse[(int64_t)prolong->col[k] * b + c] |= fine[(int64_t)i * b + c];
+}
+
+/* Row i of R A P; where[] finds columns from `first` on. */
+static int64_t galerkin_row(const block_matrix *a, const uint8_t *active, const sparse *prolong,
+                            const sparse *restrict_, int32_t i, int64_t first, int64_t *where, int32_t *col,
+                            float *value)
+{
+    int b = a->b, bb = b * b;
+    int64_t n = first;
+
+    for (int64_t m = restrict_->row[i]; m < restrict_->row[i + 1]; m++) {
+        int32_t f = restrict_->col[m];
+
+        for (int64_t k = a->row[f]; k < a->row[f + 1]; k++) {
+            int32_t g = a->col[k];
+            float block[9];
+
+            for (int e = 0; value && e < bb; e++)
+                block[e] = active[(int64_t)f * b + e % b] && active[(int64_t)g * b + e / b]
+                               ? a->value[k * bb + e] * (float)restrict_->value[m]
+                               : 0;
+            for (int64_t h = prolong->row[g]; h < prolong->row[g + 1]; h++) {
+                int32_t j = prolong->col[h];
+                float share = (float)prolong->value[h];
+
+                if (where[j] < first) {
+                    where[j] = n;
+                    if (value) {
+                        col[n] = j;
+                        memset(value + n * bb, 0, (size_t)bb * sizeof *value);
+                    }
+                    n++;
+                }
+                for (int e = 0; value && e < bb; e++)
+                    value[where[j] * bb + e] += share * block[e];
+            }
+        }
+    }
+    return n;
+}
+
+/* A of the next level. */
+static void galerkin(const block_matrix *a, const uint8_t *active, const sparse *prolong, const sparse *restrict_,
+                     block_matrix *c, pool *p)
+{
+    pool scratch = {0};
+    int64_t *where;
+
+    *c = (block_matrix){.n = prolong->n_col, .b = a->b};
+    TAKE(&scratch, where, c->n + 1);
+    TAKE(p, c->row, c->n + 1);
+    TAKE(p, c->diagonal, c->n + 1);
+    p->failed |= scratch.failed;
+    for (int pass = 0; pass < 2 && !p->failed; pass++) {
+        memset(where, 0xff, (size_t)c->n * sizeof *where);
+        for (int32_t i = 0; i < c->n; i++)
+            c->row[i + 1] = galerkin_row(a, active, prolong, restrict_, i, c->row[i], where, pass ? c->col : NULL,
+                                         pass ? c->value : NULL);
+        if (pass)
+            break;
+        TAKE(p, c->col, c->row[c->n] + 1);
+        TAKE(p, c->value, c->row[c->n] * a->b * a->b + 1);
+    }
+    pool_free(&scratch);
+}
+
+/* Places that do not take part get a row and a column of the identity; inverses of the diagonal blocks. */
+static void close_level(velocity_level *l)
+{
+    int b = l->a.b;
+
+    for (int32_t i = 0; i < l->a.n; i++) {
+        double d[3][3] = {{0}}, det;
+        float *v = l->inverse + (int64_t)i * b * b;
+
+        for (int64_t k = l->a.row[i]; k < l->a.row[i + 1]; k++) {
+            float *at = l->a.value + k * b * b;
+
+            l->a.diagonal[i] = l->a.col[k] == i ? k : l->a.diagonal[i];
+            for (int e = 0; e < b * b; e++)
+                if (!l->active[(int64_t)i * b + e % b] || !l->active[(int64_t)l->a.col[k] * b + e / b])
+                    at[e] = l->a.col[k] == i && e % b == e / b;
+        }
+        for (int e = 0; e < b * b; e++)
+            d[e % b][e / b] = l->a.value[l->a.diagonal[i] * b * b + e];
+        if (b == 2)
+            d[2][2] = 1;
+        det = d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) -
+              d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) + d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
+        for (int r = 0; r < b; r++)
+            for (int c = 0; c < b; c++) {
+                int r1 = (c + 1) % 3, r2 = (c + 2) % 3, c1 = (r + 1) % 3, c2 = (r + 2) % 3;
+
+                v[c * b + r] = fabs(det) > 0 ? (float)((d[r1][c1] * d[r2][c2] - d[r1][c2] * d[r2][c1]) / det)
+                                             : (float)(r == c);
+            }
+    }
+}
+
+/* Mean of the diagonals of the blocks: what aggregates are made by. */
+static void take_scalar(const velocity_level *l, sparse *t, pool *p)
+{
+    const block_matrix *a = &l->a;
+    int b = a->b;
+
+    *t = (sparse){.n = a->n, .n_col = a->n, .row = a->row, .col = a->col};
+    TAKE(p, t->value, a->row[a->n] + 1);
+    for (int64_t k = 0; !p->failed && k < a->row[a->n]; k++)
+        for (int c = 0; c < b; c++)
+            t->value[k] += a->value[k * b * b + c * b + c] / (double)b;
+}
+
+/* Prolongation from aggregates; the last `n_kept` blocks stay what they are. */
+static void from_aggregates(velocity_level *l, int32_t n_kept, pool *p)
+{
+    pool scratch = {0};
+    uint8_t *mine;
+    sparse t, q;
+
+    TAKE(&scratch, mine, l->a.n + 1);
+    take_scalar(l, &t, &scratch);
+    p->failed |= scratch.failed;
+    if (p->failed) {
+        pool_free(&scratch);
+        return;
+    }
+    memset(mine, 1, (size_t)(l->a.n - n_kept));
+    aggregate(&t, mine, STRENGTH, &q, &scratch);
+    l->prolong = (sparse){.n = l->a.n, .n_col = q.n_col + n_kept};
+    TAKE(p, l->prolong.row, l->a.n + 1);
+    if (!scratch.failed)
+        TAKE(p, l->prolong.col, q.row[q.n] + n_kept + 1);
+    if (!scratch.failed)
+        TAKE(p, l->prolong.value, q.row[q.n] + n_kept + 1);
+    p->failed |= scratch.failed;
+    for (int32_t i = 0; i < l->a.n && !p->failed; i++) {
+        int64_t n = l->prolong.row[i];
+
+        for (int64_t k = q.row[i]; i < l->a.n - n_kept && k < q.row[i + 1]; k++) {
+            l->prolong.col[n] = q.col[k];
+            l->prolong.value[n++] = q.value[k];
+        }
+        if (i >= l->a.n - n_kept) {
+            l->prolong.col[n] = q.n_col + i - (l->a.n - n_kept);
+            l->prolong.value[n++] = 1;
+        }
+        l->prolong.row[i + 1] = n;
+    }
+    pool_free(&scratch);
+}
+
+static int factor_coarse(levels *l)
+{
+    const block_matrix *a = &l->level[l->n_level - 1].a;
+    int b = a->b;
+    int32_t n = a->n * b;
+    double control[UMFPACK_CONTROL];
+    void *symbolic = NULL;
+    sparse t = {.n = n, .n_col = n}, u;
+    int64_t at = 0;
+    int status;
+
+    TAKE(&l->memory, t.row, n + 1);
+    TAKE(&l->memory, t.col, a->row[a->n] * b * b + 1);
+    TAKE(&l->memory, t.value, a->row[a->n] * b * b + 1);
+    TAKE(&l->memory, l->coarse_row, n + 1);
+    TAKE(&l->memory, l->coarse_x, n + 1);
+    TAKE(&l->memory, l->coarse_b, n + 1);
+    if (l->memory.failed)
+        return PF_SOLVER_MEMORY;
+    for (int32_t i = 0; i < n; i++) {
+        for (int64_t k = a->row[i / b]; k < a->row[i / b + 1]; k++)
+            for (int c = 0; c < b; c++) {
+                t.col[at] = a->col[k] * b + c;
+                t.value[at++] = a->value[k * b * b + c * b + i % b];
+            }
+        t.row[i + 1] = at;
+    }
+    sparse_transpose(&t, &u, &l->memory); /* by columns, and they ascend */
+    if (l->memory.failed)
+        return PF_SOLVER_MEMORY;
+    for (int32_t i = 0; i <= n; i++)
+        l->coarse_row[i] = (int32_t)u.row[i];
+    l->coarse_col = u.col;
+    l->coarse_value = u.value;
+    umfpack_di_defaults(control);
+    status = umfpack_di_symbolic(n, n, l->coarse_row, l->coarse_col, l->coarse_value, &symbolic, control, NULL);
+    if (status == UMFPACK_OK)
+        status =
+            umfpack_di_numeric(l->coarse_row, l->coarse_col, l->coarse_value, symbolic, &l->coarse, control, NULL);
+    umfpack_di_free_symbolic(&symbolic);
+    if (status != UMFPACK_OK)
+        umfpack_di_free_numeric(&l->coarse);
+    return status == UMFPACK_OK ? 0 : status == UMFPACK_ERROR_out_of_memory ? PF_SOLVER_MEMORY : PF_SOLVER_ERROR;
+}
+
+/* The level that `prolong` comes from, of the matrix a. */
+static void next_level(levels *l, const block_matrix *a, const uint8_t *active, sparse *prolong, sparse *restrict_)
+{
+    velocity_level *n = &l->level[l->n_level++];
+    pool *p = &l->memory;
+    int b = a->b;
+
+    sparse_transpose(prolong, restrict_, p);
+    TAKE(p, n->active, (int64_t)prolong->n_col * b + 1);
+    TAKE(p, n->inverse, (int64_t)prolong->n_col * b * b + 1);
+    TAKE(p, n->x, (int64_t)prolong->n_col * b + 1);
+    TAKE(p, n->b, (int64_t)prolong->n_col * b + 1);
+    TAKE(p, n->r, (int64_t)prolong->n_col * b + 1);
+    if (p->failed)
+        return;
+    activate(prolong, active, b, n->active);
+    galerkin(a, active, prolong, restrict_, &n->a, p);
+    if (!p->failed)
+        close_level(n);
+}
+
+int levels_create(levels *l, const split *s)
+{
+    int32_t n_kept = 0;
+
+    memset(l, 0, sizeof *l);
+    l->s = s;
+    for (int32_t i = s->f.n - 1; i >= 0 && s->a->unknowns->kind[s->group[i]] != PF_ROWS_OF_NODE; i--)
+        n_kept++;
+    TAKE(&l->memory, l->r, (int64_t)s->f.n * s->b);
+    from_vertices(l);
+    if (!l->memory.failed)
+        next_level(l, &s->f, s->active, &l->prolong, &l->restrict_);
+    while (!l->memory.failed && l->n_level < LEVELS_MOST) {
+        velocity_level *n = &l->level[l->n_level - 1];
+
+        if (n->a.n <= COARSEST)
+            break;
+        from_aggregates(n, n_kept, &l->memory);
+        if (l->memory.failed || n->prolong.n_col == n_kept || n->prolong.n_col > 0.8 * n->a.n)
+            break;
+        next_level(l, &n->a, n->active, &n->prolong, &n->restrict_);
+    }
+    return l->memory.failed ? PF_SOLVER_MEMORY : factor_coarse(l);
+}
+
+void levels_destroy(levels *l)
+{
+    umfpack_di_free_numeric(&l->coarse);
+    pool_free(&l->memory);
+    memset(l, 0, sizeof *l);
+}
+
+/* y = q x, with the same share for all places of a block, of those that are active. */
+static void apply_shares(const sparse *q, int b, const uint8_t *active, const float *x, float *y)
+{
+    for (int32_t i = 0; i < q->n; i++)
+        for (int c = 0; c < b; c++) {
+            double v = 0;
+
+            for (int64_t k = q->row[i]; k < q->row[i + 1]; k++)
+                v += q->value[k] * x[(int64_t)q->col[k] * b + c];
+            y[(int64_t)i * b + c] = !active || active[(int64_t)i * b + c] ? (float)v : 0;
+        }
+}
+
+/* One sweep of Gauss-Seidel by blocks, backwards. */
+static void relax(const velocity_level *l)
+{
+    const block_matrix *a = &l->a;
+    int b = a->b;
+
+    for (int32_t i = a->n; i-- > 0;) {
+        float r[3] = {0};
+
+        for (int64_t k = a->row[i]; k < a->row[i + 1]; k++)
+            for (int c = 0; c < b; c++)
+                for (int e = 0; e < b; e++)
+                    r[e] += a->value[k * b * b + c * b + e] * l->x[(int64_t)a->col[k] * b + c];
+        for (int e = 0; e < b; e++)
+            r[e] = l->b[(int64_t)i * b + e] - r[e];
+        for (int e = 0; e < b; e++)
+            for (int c = 0; c < b; c++)
+                l->x[(int64_t)i * b + e] += l->inverse[(int64_t)i * b * b + c * b + e] * r[c];
+    }
+}
+
+static void solve_coarse(levels *l, const velocity_level *n)
+{
+    int64_t size = (int64_t)n->a.n * n->a.b;
+
+    for (int64_t i = 0; i < size; i++)
+        l->coarse_b[i] = n->b[i];
+    umfpack_di_solve(UMFPACK_A, l->coarse_row, l->coarse_col, l->coarse_value, l->coarse_x, l->coarse_b, l->coarse,
+                     NULL, NULL);
+    for (int64_t i = 0; i < size; i++)
+        n->x[i] = (float)l->coarse_x[i];
+}
+
+void levels_correct(levels *l, const float *q, float *u)
+{
+    const split *s = l->s;
+    int b = s->b, last = l->n_level - 1;
+
+    for (int64_t i = 0; i < (int64_t)s->f.n * b; i++)
+        l->r[i] = s->active[i] ? q[i] : 0;
+    apply_shares(&l->restrict_, b, l->level[0].active, l->r, l->level[0].b);
+    for (int k = 0; k < last; k++)
+        apply_shares(&l->level[k].restrict_, b, l->level[k + 1].active, l->level[k].b, l->level[k + 1].b);
+    solve_coarse(l, &l->level[last]);
+    for (int k = last - 1; k >= 0; k--) {
+        apply_shares(&l->level[k].prolong, b, l->level[k].active, l->level[k + 1].x, l->level[k].x);
+        relax(&l->level[k]);
+    }
+    apply_shares(&l->prolong, b, s->active, l->level[0].x, u);
+}
