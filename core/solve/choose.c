@@ -32,6 +32,11 @@ const pf_solver *linear_method(const linear *l, int method)
     return method == METHOD_DIRECT ? l->choice.direct : l->choice.iterative;
 }
 
+const pf_solver *linear_solver(const linear *l)
+{
+    return l->analyzed || l->band.factors ? linear_method(l, l->at) : NULL;
+}
+
 int linear_analyze(linear *l, int method, int *unfit, error *err)
 {
     const pf_solver *solver = linear_method(l, method);

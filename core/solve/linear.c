@@ -31,11 +31,6 @@ enum { ITERATIVE_MOST = 150 };
 /* An iterative solver is set up anew where it takes so many more iterations than usual. */
 enum { TIRED = 6 };
 
-const pf_solver *linear_solver(const linear *l)
-{
-    return l->analyzed || l->band.factors ? linear_method(l, l->at) : NULL;
-}
-
 static int precondition(void *linear_, const double *b, double *x, error *err)
 {
     linear *l = linear_;
@@ -123,22 +118,6 @@ void linear_destroy(linear *l)
     packed_destroy(&l->packed);
     arena_free(&l->memory);
     memset(l, 0, sizeof *l);
-}
-
-void linear_forget(linear *l)
-{
-    l->factored = l->fresh = l->band.factors = 0;
-}
-
-int linear_move(linear *l, const body_points *now, error *err)
-{
-    l->factored = l->fresh = 0;
-    if (!l->choice.direct)
-        return 0;
-    if (!l->band.space)
-        TRY(band_create(&l->band, l->choice.direct, l->space, l->n_thread, err));
-    band_place(&l->band, now);
-    return 0;
 }
 
 void linear_keep(linear *l)
@@ -272,24 +251,6 @@ static int blame(linear *l, const double *b, double *x, double reached, error *e
     return ERR_CONVERGE;
 }
 
-/* By the factors of before bodies have moved, if that pays. */
-static int solve_moved(linear *l, double *b, double *x, double tol, int *done, error *err)
-{
-    double start = clock_seconds(), reached = 0;
-    int n = l->stats.gmres_iterations;
-
-    prepare(l, b, 0);
-    TRY(band_setup(&l->band, &l->a, &l->factored, err));
-    l->stats.factor_seconds += clock_seconds() - start;
-    l->stats.band_factorisations += l->factored;
-    if (!l->factored)
-        return 0;
-    TRY(iterate(l, b, x, tol, l->max_iterations, &reached, err));
-    band_count(&l->band, l->stats.gmres_iterations - n);
-    *done = reached <= 1.01 * tol;
-    return 0;
-}
-
 static int solve_by_factors(linear *l, double *b, double *x, double tol, error *err)
 {
     double reached, size, solve_flops = 4 * l->stats.cost.fill;
@@ -421,7 +382,9 @@ int linear_solve(linear *l, double *b, double *x, double tol, error *err)
     l->fresh = l->fresh && l->kept;
     l->kept = 0;
     if (moved)
-        TRY(solve_moved(l, b, x, tol, &done, err));
+        prepare(l, b, 0);
+    if (moved)
+        TRY(moved_solve(l, b, x, tol, &done, err));
     if (done)
         return 0;
     if (!l->analyzed) /* in a matrix for factors a value is held already */

@@ -91,6 +91,8 @@ int linear_approximates(const pf_solver *s); /* PF_SOLVER_APPROXIMATE */
 
 /* --- between the files of this folder --- */
 
+/* A solution by the factors of before bodies have moved; *done = 0: it was none. */
+int moved_solve(linear *l, const double *b, double *x, double tol, int *done, error *err);
 /* row_scale, from the matrix. */
 int linear_measure(linear *l, error *err);
 const pf_solver *linear_method(const linear *l, int method);
