@@ -387,6 +387,7 @@ int linear_solve(linear *l, double *b, double *x, double tol, error *err)
         TRY(moved_solve(l, b, x, tol, &done, err));
     if (done)
         return 0;
+    l->factored = l->factored && !l->band.placed;
     if (!l->analyzed) /* in a matrix for factors a value is held already */
         TRY(moved ? linear_analyze(l, METHOD_DIRECT, &unfit, err) : linear_predict(l, err));
     if (approximates(l))

@@ -35,6 +35,6 @@ int moved_solve(linear *l, const double *b, double *x, double tol, int *done, er
     l->stats.gmres_iterations += n;
     l->stats.solve_seconds += clock_seconds() - start;
     band_count(&l->band, n);
-    *done = l->factored = reached <= 1.01 * tol;
+    *done = reached <= 1.01 * tol;
     return 0;
 }
