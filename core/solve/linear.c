@@ -26,7 +26,7 @@
 enum { ITERATIVE_MOST = 150 };
 
 /* Part of the residual at which an iteration begins anew: far above round-off in single precision. */
-#define ROUND 1e-3
+#define ROUND 1e-5
 
 /* An iterative solver is set up anew where it takes so many more iterations than usual. */
 enum { TIRED = 6 };
