@@ -28,6 +28,8 @@ int band_create(band *b, const pf_solver *solver, const space *s, int n_thread, 
     ARENA_NEW(&b->memory, b->node_row, s->n_carrier + 1, err);
     ARENA_NEW(&b->memory, b->unknown, s->n_dof, err);
     ARENA_NEW(&b->memory, b->number, s->n_dof, err);
+    ARENA_NEW(&b->memory, b->rim, s->n_dof, err);
+    ARENA_NEW(&b->memory, b->left, s->n_dof, err);
     ARENA_NEW(&b->memory, b->r, s->n_dof, err);
     ARENA_NEW(&b->memory, b->z, s->n_dof, err);
     ARENA_NEW(&b->memory, b->far_r, s->n_dof, err);
@@ -81,7 +83,7 @@ int band_pays(const band *b)
 
 void band_count(band *b, int applications)
 {
-    b->flops += applications * SOLUTION * (b->far.fill + b->cost.fill);
+    b->flops += applications * SOLUTION * (b->far.fill + 2 * b->cost.fill);
     b->total += b->flops;
     b->solves++;
 }
@@ -133,6 +135,23 @@ static void number_band(band *b)
     b->node_row[b->a.n_node] = b->a.n;
 }
 
+/* Rows beside the band that have columns in it are the columns beside it that its rows have. */
+static void find_rim(band *b, const pf_csr *a)
+{
+    enum { RIM = -2 };
+
+    b->n_rim = 0;
+    for (int64_t k = 0; k < b->a.n; k++)
+        for (int64_t e = a->row[b->unknown[k]]; e < a->row[b->unknown[k] + 1]; e++) {
+            int64_t j = a->col[e];
+
+            if (b->number[j] == -1) {
+                b->number[j] = RIM;
+                b->rim[b->n_rim++] = (int32_t)j;
+            }
+        }
+}
+
 /* R A R^T; its structure, too, unless it is known. */
 static int take_matrix(band *b, const pf_csr *a, error *err)
 {
@@ -177,6 +196,7 @@ static int prepare(band *b, const pf_csr *a, error *err)
               !memcmp(b->dof_then, b->space->dof_of, (size_t)b->n_then * sizeof *b->dof_then);
     if ((double)b->a.n > LARGEST * (double)a->n)
         return 0;
+    find_rim(b, a);
     TRY(take_matrix(b, a, err));
     if (!b->self && (status = b->solver->create(&b->self, b->n_thread, why, sizeof why)))
         return failed(b, status, why, err);
@@ -207,52 +227,66 @@ int band_setup(band *b, const pf_csr *a, int *done, error *err)
     return *done || status == PF_SOLVER_SINGULAR ? 0 : failed(b, status, why, err);
 }
 
-/* z = F^-1 r, zero for unknowns that the earlier matrix did not have. */
-static int apply_far(band *b, int64_t n, void *far, const double *r, double *z, error *err)
+/* z += F^-1 r; what the earlier matrix did not have stays. */
+static int add_far(band *b, void *far, const double *r, double *z, error *err)
 {
     const space *s = b->space;
     char why[400] = "";
     int status;
 
-    if (!b->same)
-        for (int64_t k = 0; k < b->n_then; k++) {
-            int32_t i = s->free_of[b->dof_then[k]];
-
-            b->far_r[k] = i >= 0 ? r[i] : 0;
-        }
-    status = b->solver->solve(far, b->same ? r : b->far_r, b->same ? z : b->far_z, why, sizeof why);
-    if (status)
-        return failed(b, status, why, err);
-    if (b->same)
-        return 0;
-    memset(z, 0, (size_t)n * sizeof *z);
-    for (int64_t k = 0; k < b->n_then; k++) {
+    for (int64_t k = 0; !b->same && k < b->n_then; k++) {
         int32_t i = s->free_of[b->dof_then[k]];
 
+        b->far_r[k] = i >= 0 ? r[i] : 0;
+    }
+    status = b->solver->solve(far, b->same ? r : b->far_r, b->far_z, why, sizeof why);
+    if (status)
+        return failed(b, status, why, err);
+    for (int64_t k = 0; k < b->n_then; k++) {
+        int64_t i = b->same ? k : s->free_of[b->dof_then[k]];
+
         if (i >= 0)
-            z[i] = b->far_z[k];
+            z[i] += b->far_z[k];
     }
     return 0;
 }
 
-int band_apply(band *b, const pf_csr *a, void *far, const double *r, double *z, error *err)
+/* (r - A z) of row i */
+static double left_of(const pf_csr *a, int64_t i, const double *r, const double *z)
+{
+    double left = r[i];
+
+    for (int64_t e = a->row[i]; e < a->row[i + 1]; e++)
+        left -= a->value[e] * z[a->col[e]];
+    return left;
+}
+
+/* z += R^T (R A R^T)^-1 of b->r */
+static int add_near(band *b, double *z, error *err)
 {
     char why[400] = "";
-    int status;
+    int status = b->solver->solve(b->self, b->r, b->z, why, sizeof why);
 
-    TRY(apply_far(b, a->n, far, r, z, err));
-    for (int64_t k = 0; k < b->a.n; k++) {
-        int64_t i = b->unknown[k];
-        double left = r[i];
-
-        for (int64_t e = a->row[i]; e < a->row[i + 1]; e++)
-            left -= a->value[e] * z[a->col[e]];
-        b->r[k] = left;
-    }
-    status = b->solver->solve(b->self, b->r, b->z, why, sizeof why);
     if (status)
         return failed(b, status, why, err);
     for (int64_t k = 0; k < b->a.n; k++)
         z[b->unknown[k]] += b->z[k];
     return 0;
+}
+
+int band_apply(band *b, const pf_csr *a, void *far, const double *r, double *z, error *err)
+{
+    for (int64_t k = 0; k < b->a.n; k++)
+        b->r[k] = r[b->unknown[k]];
+    memset(z, 0, (size_t)a->n * sizeof *z);
+    TRY(add_near(b, z, err));
+    memcpy(b->left, r, (size_t)a->n * sizeof *r);
+    for (int64_t k = 0; k < b->a.n; k++) /* solved there */
+        b->left[b->unknown[k]] = 0;
+    for (int64_t k = 0; k < b->n_rim; k++)
+        b->left[b->rim[k]] = left_of(a, b->rim[k], r, z);
+    TRY(add_far(b, far, b->left, z, err));
+    for (int64_t k = 0; k < b->a.n; k++)
+        b->r[k] = left_of(a, b->unknown[k], r, z);
+    return add_near(b, z, err);
 }

@@ -6,11 +6,11 @@
  * elsewhere nearly the same.  The band are the unknowns of these cells and of one layer of cells round them, and
  * those of the bodies; with R the restriction to it,
  *
- *     z = F^-1 r,      z += R^T (R A R^T)^-1 R (r - A z)
+ *     z = B r,      z += F^-1 (r - A z),      z += B (r - A z),      B = R^T (R A R^T)^-1 R,
  *
- * nearly solves A z = r: the far field first, then what is near.  The band's matrix is small, and factored for
- * every A by the same kind of solver.  What one matrix has as an unknown and the other has not (fields inside of
- * bodies) lies in the band. */
+ * nearly solves A z = r: what is near, the far field, and what is near again.  The band's matrix is small, and
+ * factored for every A by the same kind of solver.  What one matrix has as an unknown and the other has not (fields
+ * inside of bodies) lies in the band. */
 #ifndef SOLVE_BAND_H
 #define SOLVE_BAND_H
 
@@ -37,13 +37,15 @@ typedef struct band {
     int64_t *col, col_room;
     double *value;
     int64_t value_room;
-    int32_t *unknown;              /* [a.n] of the band among those of the matrix, ascending */
-    int32_t *number;               /* [n_dof] of the matrix among those of the band, or -1 */
-    double *r, *z, *far_r, *far_z; /* [n_dof] room */
-    pf_solver_cost cost, far;      /* of the factors of the band, and of those of the earlier matrix */
-    double flops;                  /* of the last solution, ...                                      */
-    double total;                  /* ... and of all since the factorisation, with that              */
-    int solves;                    /* how many these were */
+    int32_t *unknown;                     /* [a.n] of the band among those of the matrix, ascending */
+    int32_t *number;                      /* [n_dof] of the matrix among those of the band, or -1 */
+    int64_t n_rim;                        /* rows beside the band that have columns in it: */
+    int32_t *rim;                         /* [n_dof] */
+    double *r, *z, *left, *far_r, *far_z; /* [n_dof] room */
+    pf_solver_cost cost, far;             /* of the factors of the band, and of those of the earlier matrix */
+    double flops;                         /* of the last solution, ...                                      */
+    double total;                         /* ... and of all since the factorisation, with that              */
+    int solves;                           /* how many these were */
     arena memory;
 } band;
 
