@@ -48,7 +48,8 @@ int linear_analyze(linear *l, int method, int *unfit, error *err)
     l->stats.cost = (pf_solver_cost){0};
     if (!l->instance[method] && solver->create(&l->instance[method], l->n_thread, why, sizeof why))
         return error_set(err, ERR_MEMORY, "linear solver %s: %s", solver->name, why);
-    TRY(packed_structure(&l->packed, l->space, &l->a, err));
+    if (method == METHOD_DIRECT)
+        TRY(packed_structure(&l->packed, l->space, &l->a, err));
     status = solver->analyze(l->instance[method], method == METHOD_DIRECT ? &l->packed.a : &l->a, &l->stats.cost,
                              why, sizeof why);
     l->stats.analyze_seconds += clock_seconds() - t;

@@ -141,7 +141,8 @@ static int set_up(linear *l, error *err)
 
     solver = linear_method(l, l->at);
     t = clock_seconds();
-    packed_values(&l->packed, l->space, &l->a);
+    if (l->at == METHOD_DIRECT)
+        packed_values(&l->packed, l->space, &l->a);
     status = solver->setup(l->instance[l->at], l->at == METHOD_DIRECT ? &l->packed.a : &l->a, why, sizeof why);
     l->stats.factor_seconds += clock_seconds() - t;
     l->stats.factorisations++;
