@@ -12,6 +12,10 @@
  * solutions, some tenths where every step has its own. */
 #define MANY_FLOPS           6e10
 #define MANY_FLOPS_EACH_STEP 1.5e9
+/* Some seconds again where every step has its own matrix, but another one only near few bodies (band.h); in 2D:
+ * in 3D solving with the factors costs as much as the iteration. */
+#define MANY_FLOPS_BAND 1e10
+#define FEW_ATTACHED    0.2 /* pairs of a cell and a body near it, of all cells */
 
 static double available_memory(void)
 {
@@ -85,10 +89,17 @@ static double guess_flops(const linear *l)
     return l->space->mesh->dim == 2 ? 180 * pow(n, 1.5) : 45 * n * n;
 }
 
+static double many_each_step(const space *s)
+{
+    int few = (double)s->n_attached < FEW_ATTACHED * (double)s->mesh->n_cell;
+
+    return s->mesh->dim == 2 && few ? MANY_FLOPS_BAND : MANY_FLOPS_EACH_STEP;
+}
+
 int linear_predict(linear *l, error *err)
 {
     error ignored;
-    double many = l->choice.each_step ? MANY_FLOPS_EACH_STEP : MANY_FLOPS;
+    double many = l->choice.each_step ? many_each_step(l->space) : MANY_FLOPS;
     int unfit, status;
 
     l->stats.direct_flops = 0;
