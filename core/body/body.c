@@ -122,7 +122,7 @@ int bodies_create(bodies *b, const description *d, space *s, const cell_grid *gr
     TRY(share_integrals_create(b, err));
     b->n_image = mesh_images(s->mesh, b->image);
     ARENA_NEW(&b->memory, b->near_cell, s->mesh->n_cell, err);
-    ARENA_NEW(&b->memory, b->envelope.first_tie, s->mesh->n_cell, err);
+    TRY(envelope_create(b, err));
     TRY(active_create(b, err));
     TRY(paths_create(b, err));
     TRY(pairs_create(b, err));

@@ -84,7 +84,10 @@ typedef struct envelope {
     int32_t *first_tie;  /* [n_cell] first tie of a bad cell in space.tie, or -1      */
     int32_t *next_tie;   /* [space.n_tie] next tie of the same cell                   */
     int64_t next_tie_room;
-    long made; /* how often cells were attached */
+    double margin;           /* of the attached cells, in sizes of a cell */
+    int restricted;          /* some field has its unknowns at them only  */
+    int32_t (*neighbour)[6]; /* [n_cell] cells that share a facet, -1: no more; NULL: there are no ties */
+    long made;               /* how often cells were attached */
     arena memory;
 } envelope;
 
@@ -140,6 +143,7 @@ typedef struct bodies {
     placement *now;     /* the last one made */
     int stamp;          /* of the last one made */
     int32_t *near_cell; /* [n_cell] room for a search */
+    long patterns;      /* placements that took another pattern of the matrix */
     long rootless;      /* placements in which some bad cell had no root */
     double seconds;     /* spent here */
     arena memory;
@@ -228,7 +232,10 @@ int parts_check(const bodies *b, error *err);
 int symmetry_planes_at(const symmetry_plane *plane, int n, const solid *b, int *which);
 /* The body of an attached pair, at the place of its image there. */
 solid body_image(const bodies *b, const placement *p, int64_t attached);
+int envelope_create(bodies *b, error *err);
 int envelope_holds(const bodies *b, const pose *at);
+/* Whether the cell of an attached pair is within so many sizes of a cell of where the body is now. */
+int envelope_near(const bodies *b, const placement *p, int64_t attached, double margin);
 int envelope_attach(bodies *b, const pose *at, error *err);
 /* Covered cells and pieces of surface. */
 int covered_cut(const bodies *b, placement *p, error *err);

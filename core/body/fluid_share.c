@@ -10,6 +10,9 @@
 
 #include <string.h>
 
+/* How near, in sizes of a cell. */
+#define RING 0.27 /* no round number: bodies often lie along the lines of the mesh */
+
 /* Enters a cell, with the weights of all of it unless a body covers it. */
 static void enter(const bodies *b, placement *p, int32_t cell, int64_t attached)
 {
@@ -51,7 +54,7 @@ int share_weights(const bodies *b, placement *p, error *err)
             p->cut_weight[p->cut_of[e] * n + q] -= p->covered_weight[k * n + q];
     }
     for (int64_t a = 0; a < s->n_attached; a++)
-        if (p->covered_by[s->attached_cell[a]] < 0)
+        if (p->covered_by[s->attached_cell[a]] < 0 && envelope_near(b, p, a, RING))
             enter(b, p, s->attached_cell[a], a);
     return 0;
 }

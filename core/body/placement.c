@@ -108,6 +108,7 @@ int bodies_place(bodies *b, const pose *at, enum placement_change *change, error
     placement_destroy(b->now);
     b->now = p;
     *change = again || fresh ? PLACEMENT_PATTERN : PLACEMENT_MOVED;
+    b->patterns += *change == PLACEMENT_PATTERN;
     b->seconds += clock_seconds() - start;
     return status;
 }

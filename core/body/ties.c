@@ -3,8 +3,8 @@
  * Ties of bad cells.  A cell is bad if less than half of it is fluid (or none, but a piece of surface lies there).
  * Its root is the nearest cell that is not bad; of equidistant ones that further out of the body; if that leaves
  * several, they share the tie, or a symmetric body would drift (numerics 5).  Ties couple the nodes of two cells:
- * the space keeps those that it has met since cells were attached to the bodies, so that its pattern changes less
- * often. */
+ * the pattern has entries for those of neighbours near bodies (envelope.c), and the space keeps those that it has
+ * met since cells were attached to the bodies. */
 #include "body/body.h"
 
 #include "base/list.h"
@@ -30,21 +30,22 @@ static void centre_of(const mesh *m, int32_t cell, double *x)
             x[k] += m->x[(int64_t)m->cell[(int64_t)cell * c->n_node + c->vertex[i]] * m->dim + k] / c->n_vertex;
 }
 
-/* The tie of both cells in the space; met for the first time: *fresh. */
+/* The tie of both cells in the space; *fresh: met for the first time, and the pattern has no entries for it. */
 static int group_of(bodies *b, int32_t bad, int32_t root, int64_t *group, int *fresh, error *err)
 {
     envelope *e = &b->envelope;
     int64_t k = e->first_tie[bad];
+    int fits;
 
     while (k >= 0 && b->space->tie[k][1] != root)
         k = e->next_tie[k];
     if (k < 0) {
         k = b->space->n_tie;
         LIST_ROOM(e->next_tie, k, &e->next_tie_room, err);
-        TRY(space_add_tie(b->space, bad, root, err));
+        TRY(space_add_tie(b->space, bad, root, &fits, err));
         e->next_tie[k] = e->first_tie[bad];
         e->first_tie[bad] = (int32_t)k;
-        *fresh = 1;
+        *fresh |= !fits;
     }
     *group = space_tie_group(b->space, k);
     return 0;

@@ -72,6 +72,9 @@ static void add_counts(const problem *p, const run_result *q, text *t)
     number(t, "matrices", (double)p->system.matrices);
     number(t, "gmres_iterations", q->gmres_iterations);
     number(t, "factorisations", q->factorisations);
+    number(t, "band_factorisations", l->band_factorisations);
+    if (p->bodies.n)
+        number(t, "patterns", (double)p->bodies.patterns);
     number(t, "worst_linear_residual", l->worst_residual);
     if (linear_solver(&p->system.linear)) {
         text_add(t, ",\n  \"linear_solver\": ");

@@ -12,6 +12,10 @@
  * solutions, some tenths where every step has its own. */
 #define MANY_FLOPS           6e10
 #define MANY_FLOPS_EACH_STEP 1.5e9
+/* Some seconds again where every step has its own matrix, but another one only near few bodies (band.h); in 2D:
+ * in 3D solving with the factors costs as much as the iteration. */
+#define MANY_FLOPS_BAND 1e10
+#define FEW_ATTACHED    0.2 /* pairs of a cell and a body near it, of all cells */
 
 static double available_memory(void)
 {
@@ -32,6 +36,11 @@ const pf_solver *linear_method(const linear *l, int method)
     return method == METHOD_DIRECT ? l->choice.direct : l->choice.iterative;
 }
 
+const pf_solver *linear_solver(const linear *l)
+{
+    return l->analyzed || l->band.factors ? linear_method(l, l->at) : NULL;
+}
+
 int linear_analyze(linear *l, int method, int *unfit, error *err)
 {
     const pf_solver *solver = linear_method(l, method);
@@ -43,7 +52,10 @@ int linear_analyze(linear *l, int method, int *unfit, error *err)
     l->stats.cost = (pf_solver_cost){0};
     if (!l->instance[method] && solver->create(&l->instance[method], l->n_thread, why, sizeof why))
         return error_set(err, ERR_MEMORY, "linear solver %s: %s", solver->name, why);
-    status = solver->analyze(l->instance[method], &l->a, &l->stats.cost, why, sizeof why);
+    if (method == METHOD_DIRECT)
+        TRY(packed_structure(&l->packed, l->space, &l->a, err));
+    status = solver->analyze(l->instance[method], method == METHOD_DIRECT ? &l->packed.a : &l->a, &l->stats.cost,
+                             why, sizeof why);
     l->stats.analyze_seconds += clock_seconds() - t;
     *unfit = status == PF_SOLVER_UNFIT;
     if (status)
@@ -77,10 +89,17 @@ static double guess_flops(const linear *l)
     return l->space->mesh->dim == 2 ? 180 * pow(n, 1.5) : 45 * n * n;
 }
 
+static double many_each_step(const space *s)
+{
+    int few = (double)s->n_attached < FEW_ATTACHED * (double)s->mesh->n_cell;
+
+    return s->mesh->dim == 2 && few ? MANY_FLOPS_BAND : MANY_FLOPS_EACH_STEP;
+}
+
 int linear_predict(linear *l, error *err)
 {
     error ignored;
-    double many = l->choice.each_step ? MANY_FLOPS_EACH_STEP : MANY_FLOPS;
+    double many = l->choice.each_step ? many_each_step(l->space) : MANY_FLOPS;
     int unfit, status;
 
     l->stats.direct_flops = 0;

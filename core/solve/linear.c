@@ -31,16 +31,13 @@ enum { ITERATIVE_MOST = 150 };
 /* An iterative solver is set up anew where it takes so many more iterations than usual. */
 enum { TIRED = 6 };
 
-const pf_solver *linear_solver(const linear *l)
-{
-    return l->analyzed ? linear_method(l, l->at) : NULL;
-}
-
 static int precondition(void *linear_, const double *b, double *x, error *err)
 {
     linear *l = linear_;
     char why[400] = "";
 
+    if (l->band.placed)
+        return band_apply(&l->band, &l->a, l->instance[METHOD_DIRECT], b, x, err);
     if (linear_method(l, l->at)->solve(l->instance[l->at], b, x, why, sizeof why))
         return error_set(err, ERR_CONVERGE, "linear solver %s: %s", linear_method(l, l->at)->name, why);
     return 0;
@@ -117,13 +114,10 @@ void linear_destroy(linear *l)
         if (l->instance[m])
             linear_method(l, m)->destroy(l->instance[m]);
     gmres_destroy(&l->krylov);
+    band_destroy(&l->band);
+    packed_destroy(&l->packed);
     arena_free(&l->memory);
     memset(l, 0, sizeof *l);
-}
-
-void linear_forget(linear *l)
-{
-    l->factored = l->fresh = 0;
 }
 
 void linear_keep(linear *l)
@@ -147,11 +141,15 @@ static int set_up(linear *l, error *err)
 
     solver = linear_method(l, l->at);
     t = clock_seconds();
-    status = solver->setup(l->instance[l->at], &l->a, why, sizeof why);
+    if (l->at == METHOD_DIRECT)
+        packed_values(&l->packed, l->space, &l->a);
+    status = solver->setup(l->instance[l->at], l->at == METHOD_DIRECT ? &l->packed.a : &l->a, why, sizeof why);
     l->stats.factor_seconds += clock_seconds() - t;
     l->stats.factorisations++;
     l->spent = 0;
     l->factored = l->fresh = status == PF_SOLVER_OK;
+    if (l->band.space)
+        band_remember(&l->band, status == PF_SOLVER_OK && l->at == METHOD_DIRECT, &l->stats.cost, &l->a);
     if (status == PF_SOLVER_SINGULAR) {
         error_set(err, ERR_CONVERGE, "the linear system is singular");
         err->retry = 1;
@@ -257,6 +255,7 @@ static int blame(linear *l, const double *b, double *x, double reached, error *e
 static int solve_by_factors(linear *l, double *b, double *x, double tol, error *err)
 {
     double reached, size, solve_flops = 4 * l->stats.cost.fill;
+    int unfit;
 
     prepare(l, b, 0);
     if (l->factored && !l->fresh && tol > 0 && l->spent * solve_flops < l->stats.cost.flops) {
@@ -268,6 +267,8 @@ static int solve_by_factors(linear *l, double *b, double *x, double tol, error *
         if (reached <= 1.01 * tol)
             return 0;
     }
+    if (!l->fresh && !packed_holds(&l->packed, l->space))
+        TRY(linear_analyze(l, METHOD_DIRECT, &unfit, err));
     if (!l->fresh)
         TRY(set_up(l, err));
     TRY(iterate(l, b, x, LINEAR_ACCEPT, 1, &reached, err));
@@ -376,11 +377,20 @@ static int solve_by_iteration(linear *l, double *b, double *x, double tol, error
 
 int linear_solve(linear *l, double *b, double *x, double tol, error *err)
 {
+    int moved = l->band.placed && tol > 0 && band_pays(&l->band), done = 0, unfit;
+
     l->stats.solves++;
     l->fresh = l->fresh && l->kept;
     l->kept = 0;
-    if (!l->analyzed)
-        TRY(linear_predict(l, err));
+    if (moved)
+        prepare(l, b, 0);
+    if (moved)
+        TRY(moved_solve(l, b, x, tol, &done, err));
+    if (done)
+        return 0;
+    l->factored = l->factored && !l->band.placed;
+    if (!l->analyzed) /* in a matrix for factors a value is held already */
+        TRY(moved ? linear_analyze(l, METHOD_DIRECT, &unfit, err) : linear_predict(l, err));
     if (approximates(l))
         return solve_by_iteration(l, b, x, tol > 0 ? tol : 0.1 * USELESS, err);
     return solve_by_factors(l, b, x, tol, err);

@@ -5,7 +5,9 @@
 #define SOLVE_LINEAR_H
 
 #include "base/warning.h"
+#include "solve/band.h"
 #include "solve/gmres.h"
+#include "solve/packed.h"
 #include "solve/unknowns.h"
 
 #define LINEAR_ACCEPT 1e-10
@@ -19,9 +21,10 @@ typedef struct linear_choice {
 
 typedef struct linear_stats {
     int factorisations, gmres_iterations, solves;
-    double largest_b;      /* norm of the largest right-hand side                       */
-    double worst_residual; /* largest |b - A x| / |b| by fresh factors; of last corrections, small as b is,
-                            * relative to 1e-8 of the largest |b| */
+    int band_factorisations; /* of the band alone, see band.h                             */
+    double largest_b;        /* norm of the largest right-hand side                       */
+    double worst_residual;   /* largest |b - A x| / |b| by fresh factors; of last corrections, small as b is,
+                              * relative to 1e-8 of the largest |b| */
     double factor_seconds, solve_seconds, analyze_seconds;
     pf_solver_cost cost; /* of the solver in use                */
     double direct_flops; /* of a factorisation, as it was guessed where it was not analysed; 0: it was */
@@ -49,6 +52,8 @@ typedef struct linear {
     double *row_scale;      /* [n] their inverses by rows */
     unknowns rows;
     const int64_t *pin; /* [n_field] row of the value that is held of a free field, or -1 */
+    band band;          /* where bodies have moved since the last factorisation */
+    packed packed;      /* the matrix as it is factored */
     gmres krylov;
     double *b, *dx; /* [n] room of the refinement */
     double *r;      /* [n] b - A x of the last solve */
@@ -77,13 +82,17 @@ void linear_keep(linear *l);
 int linear_predict(linear *l, error *err);
 /* x = what is set up makes of b, right or not; an iterative solver reduces the residual to about a tenth. */
 int linear_apply(linear *l, double *b, double *x, error *err);
-void linear_forget(linear *l);                   /* the next solve sets up afresh */
+void linear_forget(linear *l); /* the next solve sets up afresh */
+/* Bodies are elsewhere: factors of before are of use as band.h says, if at all. */
+int linear_move(linear *l, const body_points *now, error *err);
 const pf_solver *linear_solver(const linear *l); /* the one in use; NULL before it is chosen */
 void linear_destroy(linear *l);
 int linear_approximates(const pf_solver *s); /* PF_SOLVER_APPROXIMATE */
 
 /* --- between the files of this folder --- */
 
+/* A solution by the factors of before bodies have moved; *done = 0: it was none. */
+int moved_solve(linear *l, const double *b, double *x, double tol, int *done, error *err);
 /* row_scale, from the matrix. */
 int linear_measure(linear *l, error *err);
 const pf_solver *linear_method(const linear *l, int method);

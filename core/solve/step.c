@@ -35,7 +35,7 @@ static int place(stepper *p, const pose *at, double *x, error *err)
     if (change == PLACEMENT_PATTERN)
         TRY(system_renew(p->system, err));
     if (change != PLACEMENT_SAME)
-        linear_forget(&p->system->linear); /* the old factors know the old cells */
+        TRY(linear_move(&p->system->linear, points(p->bodies), err));
     bodies_clear(p->bodies, p->bodies->now, x);
     return 0;
 }

@@ -92,6 +92,8 @@ void space_destroy(space *s)
 {
     free(s->link);
     free(s->tie);
+    free(s->tie_pair);
+    free(s->spare);
     arena_free(&s->attached_memory);
     arena_free(&s->pattern_memory);
     arena_free(&s->memory);

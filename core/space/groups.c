@@ -75,27 +75,30 @@ int32_t space_carrier(const space *s, int64_t group, int i)
     return cell_carrier(s, s->tie[k - s->n_link][i / n], -1, i % n);
 }
 
-int64_t space_pair_offset(const space *s, int64_t group)
+int64_t space_pairs(const space *s)
+{
+    int64_t cell = (int64_t)s->cell_carriers * s->cell_carriers;
+
+    return space_link_group(s, 0) * cell + s->n_link * 4;
+}
+
+const int32_t *space_pair(const space *s, int64_t group)
 {
     int64_t cell = (int64_t)s->cell_carriers * s->cell_carriers, n = s->mesh->type->n_node;
     int64_t plain = space_link_group(s, 0), links = space_tie_group(s, 0);
 
     if (group < plain)
-        return group * cell;
+        return s->pair + group * cell;
     if (group < links)
-        return plain * cell + (group - plain) * 4;
-    return plain * cell + s->n_link * 4 + (group - links) * 4 * n * n;
-}
-
-const int32_t *space_pair(const space *s, int64_t group)
-{
-    return s->pair + space_pair_offset(s, group);
+        return s->pair + plain * cell + (group - plain) * 4;
+    return s->tie_pair + (group - links) * 4 * n * n;
 }
 
 int space_attach(space *s, const int32_t *cell, const int32_t *body, int64_t n, error *err)
 {
     arena_free(&s->attached_memory);
-    s->n_attached = s->n_link = s->n_tie = 0;
+    s->n_attached = s->n_link = s->n_tie = s->n_spare = 0;
+    s->outdated = 1;
     if (n >= INT32_MAX) /* placements number them with 32 bits */
         return error_set(err, ERR_CASE, "bodies are near %.3g cells, at most %.3g are possible", (double)n,
                          (double)INT32_MAX);
@@ -128,10 +131,82 @@ int space_add_link(space *s, int a, int b, error *err)
     return 0;
 }
 
-int space_add_tie(space *s, int32_t bad, int32_t root, error *err)
+/* Where the columns of carrier j start in the rows of carrier i: found in the pattern, or -1. */
+static int32_t find_offset(const space *s, int32_t i, int32_t j)
 {
+    int64_t row = s->row[s->node_free[i]], low = row, high = s->row[s->node_free[i] + 1];
+
+    while (low < high) {
+        int64_t middle = (low + high) / 2;
+
+        if (s->col[middle] < s->node_free[j])
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < s->row[s->node_free[i] + 1] && s->col[low] == s->node_free[j] ? (int32_t)(low - row) : -1;
+}
+
+/* Offsets of a tie in the pattern that there is; 0: it has no entries for it. */
+static int locate_tie(const space *s, int64_t tie)
+{
+    int n = 2 * s->mesh->type->n_node;
+    int32_t *pair = s->tie_pair + tie * n * n;
+
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            int32_t a = space_carrier(s, space_tie_group(s, tie), i),
+                    b = space_carrier(s, space_tie_group(s, tie), j);
+
+            pair[i * n + j] = -1;
+            if (s->node_free[a] == s->node_free[a + 1] || s->node_free[b] == s->node_free[b + 1])
+                continue;
+            pair[i * n + j] = find_offset(s, a, b);
+            if (pair[i * n + j] < 0)
+                return 0;
+        }
+    return 1;
+}
+
+/* The entries of a located tie are in use. */
+static void claim_entries(space *s, int64_t tie)
+{
+    int n = 2 * s->mesh->type->n_node;
+    const int32_t *pair = s->tie_pair + tie * n * n;
+
+    for (int i = 0; s->unused && i < n; i++) {
+        int32_t a = space_carrier(s, space_tie_group(s, tie), i);
+
+        for (int j = 0; j < n; j++) {
+            int32_t b = space_carrier(s, space_tie_group(s, tie), j);
+
+            for (int64_t r = s->node_free[a]; pair[i * n + j] >= 0 && r < s->node_free[a + 1]; r++)
+                memset(s->unused + s->row[r] + pair[i * n + j], 0, (size_t)(s->node_free[b + 1] - s->node_free[b]));
+        }
+    }
+    s->claims++;
+}
+
+int space_add_tie(space *s, int32_t bad, int32_t root, int *fits, error *err)
+{
+    int64_t n = s->mesh->type->n_node;
+
     LIST_ROOM(s->tie, s->n_tie, &s->tie_room, err);
+    LIST_ROOM(s->tie_pair, (s->n_tie + 1) * 4 * n * n, &s->tie_pair_room, err);
     s->tie[s->n_tie][0] = bad;
     s->tie[s->n_tie++][1] = root;
+    *fits = !s->outdated && locate_tie(s, s->n_tie - 1);
+    s->outdated = !*fits;
+    if (*fits)
+        claim_entries(s, s->n_tie - 1);
+    return 0;
+}
+
+int space_add_spare(space *s, int32_t a, int32_t b, error *err)
+{
+    LIST_ROOM(s->spare, s->n_spare, &s->spare_room, err);
+    s->spare[s->n_spare][0] = a;
+    s->spare[s->n_spare++][1] = b;
+    s->outdated = 1;
     return 0;
 }

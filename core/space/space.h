@@ -44,6 +44,8 @@ typedef struct space {
     int32_t (*link)[2];
     int64_t n_tie, tie_room; /* pairs of cells: with too little fluid, its root    */
     int32_t (*tie)[2];
+    int64_t n_spare, spare_room; /* pairs of cells that the pattern has entries for: ties may come there */
+    int32_t (*spare)[2];
     int64_t n_carrier; /* mesh nodes, the problem, bodies */
     int cell_carriers; /* carriers of a cell: its nodes, then the problem if needed  */
     int64_t n_dof, n_free;
@@ -61,6 +63,11 @@ typedef struct space {
     int64_t *row, *col; /* [n_free + 1], [row[n_free]]                                */
     int32_t *pair;      /* of each group [size^2]: offset of carrier j's columns in
                                  the rows of carrier i, or -1                               */
+    int32_t *tie_pair;  /* the same of ties */
+    int64_t tie_pair_room;
+    uint8_t *unused; /* [row[n_free]] 1: an entry that no group has, but a spare pair; NULL: there are none */
+    int claims;      /* how often a tie has taken such entries  */
+    int outdated;    /* groups have changed since the pattern was built */
     arena memory, attached_memory, pattern_memory;
 } space;
 
@@ -74,12 +81,16 @@ int space_constrain(space *s, error *err);
 
 /* --- groups (groups.c) --- */
 
-/* The pairs of cell and body that are near each other now (n of each); forgets all links and ties.  Restricted
+/* The pairs of cell and body that are near each other now (n of each); forgets all links, ties and spare entries.
+ * The pattern is to be built anew.  Restricted
  * unknowns (PF_IN_PARTICLES) at their nodes enter the matrix, others leave it. */
 int space_attach(space *s, const int32_t *cell, const int32_t *body, int64_t n, error *err);
 /* All links come before the first tie.  b = -1: a body alone. */
 int space_add_link(space *s, int a, int b, error *err);
-int space_add_tie(space *s, int32_t bad, int32_t root, error *err);
+/* *fits: the pattern has its entries; if not, it is to be built anew. */
+int space_add_tie(space *s, int32_t bad, int32_t root, int *fits, error *err);
+/* The next pattern will have entries for a tie of these cells, either way. */
+int space_add_spare(space *s, int32_t a, int32_t b, error *err);
 
 /* Number of groups; a cell's is its own number, those of the others: */
 int64_t space_groups(const space *s);
@@ -90,9 +101,10 @@ int64_t space_tie_group(const space *s, int64_t tie);
 int space_group_size(const space *s, int64_t group);
 int32_t space_carrier(const space *s, int64_t group, int i);
 int32_t space_body_carrier(const space *s, int body);
-/* Where the part of `pair` of this group starts; that part, [size][size]. */
-int64_t space_pair_offset(const space *s, int64_t group);
+/* Offsets of the group, [size][size]: of carrier j's columns in the rows of carrier i, or -1. */
 const int32_t *space_pair(const space *s, int64_t group);
+/* Length of `pair`. */
+int64_t space_pairs(const space *s);
 /* Node of the mesh that carries the unknowns of a node: itself, or its master on a periodic boundary. */
 int32_t space_master(const space *s, int32_t node);
 
