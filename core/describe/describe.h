@@ -102,7 +102,8 @@ typedef struct output_spec {
 typedef struct solve_spec {
     double tolerance; /* of Newton, per field */
     int max_iterations;
-    double linear_tolerance; /* of GMRES with old factors; 0: factor every matrix */
+    double linear_tolerance; /* what GMRES with old factors may leave at most; 0: factor every matrix */
+    int coarse_start;        /* of a steady case on a box; -1: where it pays */
     double fall;             /* of a step in time, see newton_options */
     int n_continued;         /* parameters of terms that a steady case is continued in, */
     double *continued[DESCRIBE_MAX_CONTINUED], from[DESCRIBE_MAX_CONTINUED], to[DESCRIBE_MAX_CONTINUED];

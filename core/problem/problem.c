@@ -76,12 +76,11 @@ static void plan_continuation(problem *p)
 
 /* Terms by the points that they act on: one class for the cells, one each for what follows the bodies, one
  * for terms on all facets, one for each boundary line with fluxes. */
-static int make_system(problem *p, registry *r, error *err)
+static int make_system(problem *p, const pf_solver *solver, error *err)
 {
     description *d = &p->description;
     assembly_spec spec[DESCRIBE_MAX_LINES + PF_PAIR + 2] = {{0}};
     term_use *on[PF_PAIR + 1][DESCRIBE_MAX_TERMS];
-    const pf_solver *solver;
     uint8_t *all;
     int n = 0, n_on[PF_PAIR + 1] = {0};
 
@@ -112,16 +111,35 @@ static int make_system(problem *p, registry *r, error *err)
                                         .use = d->line[i].flux,
                                         .n_use = d->line[i].n_flux,
                                         .facet_on = p->conditions.facet[i]};
-    TRY(registry_solver(r, "solver_umfpack", &solver, err));
     TRY(system_create(&p->system, &p->space, spec, n, solver, p->n_thread, err));
     if (p->bodies.has_surface)
         p->system.gauge.tolerance = CUT_CLOSURE;
     return 0;
 }
 
+/* Everything on the mesh. */
+static int build(problem *p, const pf_solver *solver, error *err)
+{
+    description *d = &p->description;
+
+    TRY(space_number(&p->space, &d->fields, &p->mesh, d->n_body, err));
+    TRY(conditions_create(&p->conditions, d, &p->space, &p->warnings, err));
+    TRY(problem_check_resolution(p, err));
+    TRY(bodies_create(&p->bodies, d, &p->space, &p->grid, &p->conditions, &p->warnings, err));
+    TRY(space_constrain(&p->space, err));
+    TRY(make_system(p, solver, err));
+    plan_continuation(p);
+    p->newton = (newton_options){.tolerance = d->solve.tolerance,
+                                 .fall = d->solve.fall,
+                                 .max_iterations = d->solve.max_iterations,
+                                 .linear_tolerance = d->solve.linear_tolerance};
+    return state_create(&p->state, p->space.n_dof, d->n_body, err);
+}
+
 int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *err)
 {
     description *d = &p->description;
+    const pf_solver *solver;
     double start = clock_seconds();
 
     memset(p, 0, sizeof *p);
@@ -138,20 +156,23 @@ int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *e
         TRY(bodies_check_places(d, &p->mesh, &p->grid, err));
         TRY(case_finish(c, err));
     }
-    TRY(space_number(&p->space, &d->fields, &p->mesh, d->n_body, err));
-    TRY(conditions_create(&p->conditions, d, &p->space, &p->warnings, err));
-    TRY(problem_check_resolution(p, err));
-    TRY(bodies_create(&p->bodies, d, &p->space, &p->grid, &p->conditions, &p->warnings, err));
-    TRY(space_constrain(&p->space, err));
-    TRY(make_system(p, r, err));
-    plan_continuation(p);
-    p->newton = (newton_options){.tolerance = d->solve.tolerance,
-                                 .fall = d->solve.fall,
-                                 .max_iterations = d->solve.max_iterations,
-                                 .linear_tolerance = d->solve.linear_tolerance};
-    TRY(state_create(&p->state, p->space.n_dof, d->n_body, err));
+    TRY(registry_solver(r, "solver_umfpack", &solver, err));
+    TRY(build(p, solver, err));
     p->setup_seconds = clock_seconds() - start;
     return 0;
+}
+
+int problem_create_coarse(problem *p, const problem *fine, error *err)
+{
+    memset(p, 0, sizeof *p);
+    p->n_thread = fine->n_thread;
+    p->description = fine->description;
+    p->description.memory = (arena){0};
+    TRY(problem_halve(&p->description.mesh.box, &p->memory, err));
+    TRY(problem_make_mesh(&p->description, NULL, &p->mesh, err));
+    TRY(make_periodic(&p->description, &p->mesh, err));
+    TRY(cell_grid_create(&p->grid, &p->mesh, err));
+    return build(p, fine->system.linear.solver, err);
 }
 
 const body_points *problem_points(const problem *p)

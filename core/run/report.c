@@ -4,6 +4,8 @@
 #include "run/run.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 int run_log_solve(run *r, double t, double dt, const newton_report *report, error *err)
@@ -103,6 +105,19 @@ void run_warn_order(run *r, const newton_report *report)
             "%s compares them one by one",
             report->order, r->p->description.c->path);
     r->warned_order |= report->linear_only;
+}
+
+void run_say(const run *r, const char *fmt, ...)
+{
+    char line[1000];
+    va_list ap;
+
+    if (!r->talk || !r->talk->say)
+        return;
+    va_start(ap, fmt);
+    vsnprintf(line, sizeof line, fmt, ap);
+    va_end(ap);
+    r->talk->say(r->talk->ctx, line);
 }
 
 /* Says and logs the warnings that have come since the last call. */

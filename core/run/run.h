@@ -89,10 +89,13 @@ typedef struct run {
     arena memory;
 } run;
 
+/* The one solution of a steady run (steady.c). */
+int run_steady(run *r, const volatile sig_atomic_t *stop, error *err);
 /* The steps of an unsteady run (march.c). */
 int march(run *r, const volatile sig_atomic_t *stop, error *err);
-/* What both kinds of runs do after a solution (report.c): a line of the log; warnings; r->x, the solution as it is
- * shown. */
+/* What both kinds of runs do after a solution (report.c): a line for the user; a line of the log; warnings; r->x,
+ * the solution as it is shown. */
+void run_say(const run *r, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 int run_log_solve(run *r, double t, double dt, const newton_report *report, error *err);
 int run_log_failures(run *r, error *err); /* the tries at the last step that failed */
 void run_warn_defect(run *r);

@@ -9,11 +9,22 @@
 #define MOST  1e-2
 #define LEAST 1e-12
 
-void observe_order(newton_report *r)
+/* A residual that says nothing. */
+#define ROUND_OFF 1e-14
+
+/* Whether the residual at k is what the step left, and not round-off or what its linear solution left. */
+static int shows_order(const newton_report *r, const double *inexact, int k)
+{
+    return r->history[k] >= ROUND_OFF && r->history[k] > 3 * inexact[k - 1] * r->history[k - 1];
+}
+
+void observe_order(newton_report *r, const double *inexact)
 {
     int k = r->iterations;
 
-    while (k > 1 && r->history[k] < 1e-14)
+    while (k > 2 && !(shows_order(r, inexact, k) && shows_order(r, inexact, k - 1)))
+        k--;
+    while (k == 2 && r->history[k] < ROUND_OFF)
         k--;
     r->ratio = k >= 1 && r->history[k - 1] > 0 ? r->history[k] / (r->history[k - 1] * r->history[k - 1]) : 0;
     if (k >= 2 && r->history[k - 1] < r->history[k - 2])

@@ -80,7 +80,7 @@ typedef struct newton_options {
                   * none is */
     int max_iterations;
     int hurry;               /* a step in time, which may be shorter: gives up where the residual hardly falls */
-    double linear_tolerance; /* of GMRES; 0: factor every matrix  */
+    double linear_tolerance; /* what GMRES may leave at most; 0: factor every matrix */
 } newton_options;
 
 typedef struct newton_report {
@@ -109,7 +109,8 @@ typedef struct newton_system {
     double *trial, *rhs, *scale, *work; /* [n_dof] room */
     double assemble_seconds;
     int64_t evaluations, matrices;      /* since it was created, see newton_report */
-    int last_iterations;                /* of the last solve */
+    int last_iterations;                /* of the last solve ... */
+    double last_fall;                   /* ... and the fall of the residual in its first; 1 before any */
     int vanishes[SPACE_MAX_FIELDS];     /* the field is zero but for round-off */
     uint32_t coupled[SPACE_MAX_FIELDS]; /* bit g: equations of the field contain field g */
     const volatile sig_atomic_t *stop;  /* not NULL and not 0: end soon */
@@ -173,8 +174,9 @@ double scale_change(const newton_system *s, const double *x, double length);
 /* Bit f: the equations of field f depend on a field that has not converged and that does not depend on f. */
 uint32_t scale_waiting(const newton_system *s, const double *norm, double tolerance);
 
-/* observe.c.  Order and ratio at the last iteration that is above round-off. */
-void observe_order(newton_report *r);
+/* observe.c.  Order and ratio at the last iteration that is above round-off, and above what linear solutions
+ * left. */
+void observe_order(newton_report *r, const double *inexact);
 /* Whether it was one, as with a wrong matrix; not where a constant is free only nearly.  Of each step its length,
  * and the part of the residual that its linear solution left. */
 void observe_linear(newton_report *r, const double *length, const double *inexact);

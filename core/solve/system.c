@@ -24,6 +24,7 @@ int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_
 {
     memset(s, 0, sizeof *s);
     s->space = sp;
+    s->last_fall = 1;
     TRY(assembly_create(&s->assembly, sp, spec, n_spec, n_thread, err));
     TRY(linear_create(&s->linear, solver, sp, n_thread, err));
     ARENA_NEW(&s->memory, s->residual, sp->n_dof, err);
