@@ -61,7 +61,7 @@ static int find(problem *p, int started, newton_report *report, int *steps, cont
 
 /* Unknowns below which it is not worth a line of output, and cells in a direction that a coarse grid has at least:
  * with fewer the flow may be another one. */
-enum { LEAST_UNKNOWNS = 20000, LEAST_CELLS = 6 };
+enum { LEAST_UNKNOWNS = 8000, LEAST_CELLS = 6 };
 
 /* The solution on the coarse grid need not be better than that grid is. */
 #define COARSE_TOLERANCE 1e-6
@@ -184,8 +184,11 @@ int run_steady(run *r, const volatile sig_atomic_t *stop, error *err)
                          "... } }), or make the case unsteady with time {}",
                          report.why);
     run_warn_singular(r, &report);
-    run_say(r, "  converged in %d iterations, observed order %.1f, |r| / |r_before|^2 = %.2g", report.iterations,
-            report.order, report.ratio);
+    if (report.order > 0)
+        run_say(r, "  converged in %d iterations, observed order %.1f, |r| / |r_before|^2 = %.2g",
+                report.iterations, report.order, report.ratio);
+    else
+        run_say(r, "  converged in %d iterations", report.iterations);
     if (p->bodies.n)
         TRY(bodies_fill(&p->bodies, p->bodies.now, p->state.x, err));
     run_take_solution(r);

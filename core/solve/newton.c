@@ -9,8 +9,8 @@
  * residual and matrix at once; the last matrix, which nobody needs, is not formed.  If all terms are linear,
  * the first matrix serves to the end.
  *
- * Linear systems are solved with the factors of an earlier matrix where that pays, and as far as it serves: what is
- * left of one is a part of what Newton's method itself leaves (Eisenstat and Walker 1996). */
+ * Linear systems are solved with the factors of an earlier matrix where that pays, and as far as it serves
+ * (forcing.c). */
 #include "solve/solve.h"
 #include "solve/vector.h"
 
@@ -28,11 +28,6 @@
 /* A step that may be shorter is given up where three iterations, after some, do not make this of the residual. */
 #define SLOW 0.5
 enum { LEAST_TRIES = 5 };
-/* What a linear solution may leave: this part of what the step is expected to leave, or of what is enough; not less
- * than LEAST_LEFT, as one more iteration costs less than that. */
-#define LEFT        0.1
-#define LEFT_ENOUGH 0.3
-#define LEAST_LEFT  1e-6
 /* Norms of plain and of scaled residuals differ: more than this is left by the latter, and it is solved again. */
 #define LEFT_SCALED 10
 /* Where Newton's method stops early, a correction with the factors there are is tried from this many times what is
@@ -181,17 +176,6 @@ static double merit(const newton_system *s, const double *norm, uint32_t waits)
     return sqrt(sum);
 }
 
-/* What the linear solution at iterate k may leave, relative to the residual.  A whole step is expected to make it
- * fall by the square of what the last one did; the first one by what that of the solve before did. */
-static double may_leave(const iterate *it, int k)
-{
-    const double *h = it->report->history;
-    double fall = k == 0 ? it->s->last_fall : k > 1 && it->length[k - 1] == 1 ? pow(h[k] / h[k - 1], 2) : 1;
-    double left = fmax(LEFT * fall, LEAST_LEFT), enough = LEFT_ENOUGH * it->enough / h[k];
-
-    return fmin(fmax(left, enough), it->o->linear_tolerance);
-}
-
 /* s->step: Newton's, of a linear solution that leaves no more than it->left. */
 static int solve_step(iterate *it, int k, error *err)
 {
@@ -223,14 +207,16 @@ static int correct(iterate *it, int k, error *err)
     newton_report *r = it->report;
     double norm[SPACE_MAX_FIELDS];
 
-    for (it->left = may_leave(it, k);; it->left = fmin(0.1, it->left / it->inexact[k]) * it->left) {
+    for (it->left = forcing(it->s, it->o, r, it->length, it->enough, k);;
+         it->left = fmin(0.1, it->left / it->inexact[k]) * it->left) {
         TRY(solve_step(it, k, err));
         scale_fields(s, it->x, s->step, it->scale);
         if (!isfinite(scale_norms(s, it->scale, r->norm)))
             return explain_nan(s, it->time, it->x, err);
         scale_norms_free(s, s->linear.r, it->scale, norm);
         it->inexact[k] = merit(s, norm, 0) / merit(s, r->norm, 0);
-        if (!(it->left > LINEAR_ACCEPT && it->inexact[k] > LEFT_SCALED * it->left && it->inexact[k] > LEAST_LEFT))
+        if (!(it->left > LINEAR_ACCEPT && it->inexact[k] > LEFT_SCALED * it->left &&
+              it->inexact[k] > FORCING_LEAST))
             return 0;
     }
 }

@@ -91,8 +91,8 @@ typedef struct newton_report {
     int64_t evaluations, matrices;             /* of the residual; those of them with the matrix */
     double norm[SPACE_MAX_FIELDS];             /* scaled residual of each field, last  */
     double history[NEWTON_MAX_ITERATIONS + 1]; /* largest of them, per iteration        */
-    double ratio;                              /* r_{k+1} / r_k^2 of the last iterations */
-    double order;                              /* observed order of convergence         */
+    double order;                              /* of convergence, by the last residuals that show it; 0: none do */
+    double ratio;                              /* r_{k+1} / r_k^2 of the same           */
     char why[600];                             /* if it did not converge                */
 } newton_report;
 
@@ -173,6 +173,13 @@ void scale_norms_free(const newton_system *s, const double *free_, const double 
 double scale_change(const newton_system *s, const double *x, double length);
 /* Bit f: the equations of field f depend on a field that has not converged and that does not depend on f. */
 uint32_t scale_waiting(const newton_system *s, const double *norm, double tolerance);
+
+/* forcing.c.  Relative residual that the linear solution at iterate k may leave, of a history up to there, the
+ * lengths of the steps and the residual that is small enough; not less than FORCING_LEAST, as one more iteration
+ * costs less than that, but for a smaller linear_tolerance. */
+double forcing(const newton_system *s, const newton_options *o, const newton_report *r, const double *length,
+               double enough, int k);
+#define FORCING_LEAST 1e-6
 
 /* observe.c.  Order and ratio at the last iteration that is above round-off, and above what linear solutions
  * left. */
