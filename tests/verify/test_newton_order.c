@@ -116,14 +116,22 @@ static void a_coarse_start_changes_the_cost_only(void **state)
     }
 }
 
-/* Cells that are halved need be neither equal nor even in number, nor quadrilaterals; a side may be periodic, and
- * a field may be one number. */
+/* Cells that are halved need be neither equal nor even in number, nor quadrilaterals; sides may be periodic. */
 static void a_coarse_start_is_had_on_all_kinds_of_boxes(void **state)
 {
     (void)state;
     assert_ran(cavity("coarse_start = true", "--set n=25 --set grading=1.5", "graded"), 0,
                "coarse grid 13 x 13: converged in ");
     assert_between(summary("graded", "newton_iterations"), 2, 5);
+    put_file("periodic.lua", "case \"Flow between walls, driven by its weight\"\n"
+                             "mesh { box = {{0, 0}, {2, 1}}, cells = {13, 24}, shape = \"triangles\" }\n"
+                             "fluid { density = 1, viscosity = 0.1, gravity = {0.8, 0} }\n"
+                             "term \"continuity\" {}\nterm \"momentum\" {}\n"
+                             "boundary { periodic = {\"left\", \"right\"} }\nboundary \"*\" { u = {0, 0} }\n"
+                             "solve { coarse_start = true }\noutput { probes = { centre = {0.7, 0.5} } }\n"
+                             "results(function(r) return { u = r.last[\"centre.u\"] } end)\n");
+    assert_ran(plugflow("run %s/periodic.lua --out %s/periodic", scratch(), scratch()), 0, "coarse grid 7 x 12: ");
+    assert_between(summary("periodic", "results.u") - 0.8 / (8 * 0.1), -1e-9, 1e-9);
 }
 
 int main(void)
