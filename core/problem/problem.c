@@ -7,10 +7,6 @@
 
 #include <string.h>
 
-/* In cut cells Gauss's theorem holds as exactly as their quadrature; with an outflow the constant is off by
- * the square root of its share of all cells. */
-#define CUT_CLOSURE 3e-4
-
 static int make_periodic(const description *d, mesh *m, error *err)
 {
     for (int i = 0; i < d->n_line; i++) {
@@ -112,8 +108,7 @@ static int make_system(problem *p, const pf_solver *solver, error *err)
                                         .n_use = d->line[i].n_flux,
                                         .facet_on = p->conditions.facet[i]};
     TRY(system_create(&p->system, &p->space, spec, n, solver, p->n_thread, err));
-    if (p->bodies.has_surface)
-        p->system.gauge.tolerance = CUT_CLOSURE;
+    p->system.gauge.sharp = p->bodies.has_surface;
     return 0;
 }
 

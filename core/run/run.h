@@ -71,7 +71,7 @@ typedef struct run {
     double *time;         /* [n_time] of the rows of tables, s */
     uint8_t *facet_count; /* [3 n_node] room for reactions of a boundary */
     struct located *probe_at, **line_at;
-    int log_fd, warned, warned_singular, warned_order;
+    int log_fd, warned, warned_singular, warned_order, warned_doubt;
     int told; /* warnings said so far */
     int n_file, room;
     char **file;

@@ -58,9 +58,11 @@ enum { LINEAR_MAX_ITERATIONS = 30 }; /* of GMRES */
 /* --- fields that are fixed up to a constant (gauge.c) --- */
 
 typedef struct gauge {
-    double tolerance;           /* of the null vector, relative; 0: round-off       */
-    int free[SPACE_MAX_FIELDS]; /* the field has a free constant                    */
-    int approximate;            /* one that is so within the tolerance only         */
+    int sharp;                      /* cells are cut: their quadrature is not exact     */
+    int free[SPACE_MAX_FIELDS];     /* the field has a free constant                    */
+    int approximate;                /* one that is so to the quadrature of cut cells    */
+    double doubt[SPACE_MAX_FIELDS]; /* not 0: taken for none, with this defect, near bodies only */
+    uint8_t *near;                  /* [n_carrier] of cells near bodies                          */
     /* [n_dof] Integral of each basis function over the fluid, of the placement of the last evaluation; NULL:
      * `whole`, over whole cells. */
     const double *weight[SPACE_MAX_FIELDS];
