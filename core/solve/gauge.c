@@ -107,7 +107,8 @@ static closure close_right(newton_system *s, int f)
 
     for (int64_t i = 0; i < sp->n_free; i++)
         one[i] = sp->dof_field[sp->dof_of[i]] == f;
-#pragma omp parallel for num_threads(s->assembly.n_thread) schedule(static)
+#pragma omp parallel for num_threads(s->assembly.n_thread) if (sp->row[sp->n_free] >= VECTOR_THREADED)             \
+    schedule(static)
     for (int64_t i = 0; i < sp->n_free; i++) {
         double plain = 0, absolute = 0;
 

@@ -33,7 +33,8 @@ static void add_up(const newton_system *s, const int *of, const double *size, do
     const space *sp = s->space;
     const double *a = s->linear.value;
 
-#pragma omp parallel for num_threads(s->assembly.n_thread) schedule(static)
+#pragma omp parallel for num_threads(s->assembly.n_thread) if (sp->row[sp->n_free] >= VECTOR_THREADED)             \
+    schedule(static)
     for (int64_t i = 0; i < sp->n_free; i++) {
         const int64_t end = sp->row[i + 1], d = sp->dof_of[i];
         double sum = 0, diagonal = 0, largest = 0;

@@ -8,8 +8,6 @@
 /* Sums are of pieces of a size that depends on the number of entries only, added in their order: the same whatever
  * the number of threads. */
 enum { PIECE = 4096, MOST_PIECES = 256 };
-/* Entries from which threads are worth their start. */
-#define THREADED (1 << 17)
 
 static int64_t piece_of(int64_t n)
 {
@@ -21,7 +19,7 @@ double vector_dot(int64_t n, const double *restrict a, const double *restrict b)
     const int64_t piece = piece_of(n), n_piece = (n + piece - 1) / piece;
     double part[MOST_PIECES], sum = 0;
 
-#pragma omp parallel for if (n >= THREADED) schedule(static)
+#pragma omp parallel for if (n >= VECTOR_THREADED) schedule(static)
     for (int64_t p = 0; p < n_piece; p++) {
         const int64_t end = (p + 1) * piece < n ? (p + 1) * piece : n;
         double s = 0;
@@ -43,21 +41,21 @@ double vector_norm(int64_t n, const double *a)
 
 void vector_divide(int64_t n, double c, const double *a, double *y)
 {
-#pragma omp parallel for simd if (parallel : n >= THREADED) schedule(static)
+#pragma omp parallel for simd if (parallel : n >= VECTOR_THREADED) schedule(static)
     for (int64_t i = 0; i < n; i++)
         y[i] = a[i] / c;
 }
 
 void vector_add(int64_t n, double c, const double *a, double *y)
 {
-#pragma omp parallel for simd if (parallel : n >= THREADED) schedule(static)
+#pragma omp parallel for simd if (parallel : n >= VECTOR_THREADED) schedule(static)
     for (int64_t i = 0; i < n; i++)
         y[i] += c * a[i];
 }
 
 void vector_subtract(int64_t n, const double *a, double *y)
 {
-#pragma omp parallel for simd if (parallel : n >= THREADED) schedule(static)
+#pragma omp parallel for simd if (parallel : n >= VECTOR_THREADED) schedule(static)
     for (int64_t i = 0; i < n; i++)
         y[i] = a[i] - y[i];
 }
@@ -87,7 +85,7 @@ static void squares(const space *s, int is_free, const double *value, double *ou
     const int64_t n = s->n_free, piece = piece_of(n), n_piece = (n + piece - 1) / piece;
     double part[MOST_PIECES][SPACE_MAX_FIELDS];
 
-#pragma omp parallel for if (n >= THREADED) schedule(static)
+#pragma omp parallel for if (n >= VECTOR_THREADED) schedule(static)
     for (int64_t p = 0; p < n_piece; p++) {
         const int64_t end = (p + 1) * piece < n ? (p + 1) * piece : n;
 

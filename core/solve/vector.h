@@ -13,6 +13,9 @@
 
 #include <math.h>
 
+/* Entries of a vector or of a matrix from which threads are worth their start. */
+#define VECTOR_THREADED (1 << 17)
+
 /* --- plain vectors of n entries --- */
 
 double vector_dot(int64_t n, const double *restrict a, const double *restrict b);
