@@ -26,7 +26,7 @@ enum {
     SURFACE_POINTS = 16,
     ASSEMBLE_CELL_DEGREE = 5,
     SLAB_ROUNDS = 2,           /* of slabs that run at once */
-    ELEMENT_MOST_ENTRIES = 512 /* of an element vector */
+    ELEMENT_MOST_ENTRIES = 1024 /* of an element vector */
 };
 
 /* Two bodies near each other, or a body and a wall. */
