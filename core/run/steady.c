@@ -91,10 +91,10 @@ static int interpolate(const problem *coarse, problem *fine, double *x)
 
             if (s->first[f][c] < 0)
                 continue;
-            if (c >=
-                fine->mesh.n_node) { /* of the problem as a whole: both have the same carriers after the nodes */
-                memcpy(x + s->first[f][c],
-                       coarse->state.x + coarse->space.first[f][c - fine->mesh.n_node + coarse->mesh.n_node],
+            if (c >= fine->mesh.n_node) { /* of the problem as a whole: carriers after the nodes are the same */
+                int64_t same = c - fine->mesh.n_node + coarse->mesh.n_node;
+
+                memcpy(x + s->first[f][c], coarse->state.x + coarse->space.first[f][same],
                        (size_t)s->field[f].n_comp * sizeof *x);
                 continue;
             }
@@ -106,7 +106,7 @@ static int interpolate(const problem *coarse, problem *fine, double *x)
     return 1;
 }
 
-static int start_coarse(const run *r, problem *fine, const volatile sig_atomic_t *stop, int *started, error *err);
+static int start_coarse(const run *r, problem *p, const volatile sig_atomic_t *stop, int *started, error *err);
 
 static void tell_grid(const run *r, const problem *p, const newton_report *report)
 {
