@@ -12,12 +12,11 @@
 #ifndef ASSEMBLE_ASSEMBLE_H
 #define ASSEMBLE_ASSEMBLE_H
 
+#include "assemble/tensor.h"
 #include "base/value.h"
 #include "particle/particle.h"
 #include "space/space.h"
 #include "term/term.h"
-
-typedef double v8 __attribute__((vector_size(64)));
 
 enum {
     ASSEMBLE_MAX_INPUTS = 32,
@@ -25,7 +24,8 @@ enum {
     ASSEMBLE_MAX_USES = 32,
     ASSEMBLE_PAD = 3,
     SURFACE_POINTS = 16,
-    ASSEMBLE_CELL_DEGREE = 5
+    ASSEMBLE_CELL_DEGREE = 5,
+    ELEMENT_MOST_ENTRIES = 512 /* of an element vector */
 };
 
 /* Two bodies near each other, or a body and a wall. */
@@ -71,6 +71,7 @@ typedef struct moving_frame {
     const uint8_t *cell; /* [n_cell] 1: there may be points with w != 0 in it */
     uint32_t fields;     /* bit f: field f has its history along the paths     */
     const double *u;     /* [n_dof] history at places */
+    int one_thread;      /* `at` must not run on two at once */
     void *ctx;
     /* At point x of a cell: w [dim]; history of each such field, one after the other.  0: w = 0. */
     int (*at)(void *ctx, int64_t cell, const double *x, double *w, double *history);
@@ -109,13 +110,37 @@ typedef struct plan_use {
     int slope[TERM_MAX_SLOTS]; /* of du/dt in the fluid: its gradient there, for the moving frame; else -1 */
 } plan_use;
 
+/* Where the unknowns of an item stand in its element vector and matrix: carrier by carrier as in its group, and
+ * there field by field and component by component as in the matrix, so that the columns of a carrier lie together.
+ */
+typedef struct element_layout {
+    int n, width;                       /* entries; columns of the element matrix: n up to whole vectors     */
+    int *at[SPACE_MAX_FIELDS];          /* [n_basis] first entry of each basis function, NULL: not used      */
+    uint8_t *field, *carrier;           /* [n] of each entry; the carrier by its number in the group         */
+    uint32_t coupled[SPACE_MAX_FIELDS]; /* bit g: rows of the field may have columns of field g      */
+} element_layout;
+
+/* Rows of a body that a slab sums on its own (shares.c): at a->share_sum + at first the residual, by entry of the
+ * element vector, then the matrix, whose rows of a carrier lie in one piece. */
+typedef struct body_share {
+    int32_t carrier;
+    int64_t at, first_value, n_value;
+} body_share;
+
 /* Cells or facets with the same terms on them. */
 typedef struct assembly_class {
     int where;
     int64_t n_item;
     int32_t *cell, *facet;
-    int64_t *group;         /* of each item: the carriers that it adds to (see space.h)       */
-    const near_pair *pair;  /* PF_PAIR: of each item */
+    int64_t *group; /* of each item: the carriers that it adds to (see space.h)       */
+    element_layout layout;
+    int32_t *dof;          /* [n_item][layout.n] unknown of each entry, -1: none (a wall)    */
+    const near_pair *pair; /* PF_PAIR: of each item */
+    int serial;            /* one slab                                                      */
+    int32_t *source;       /* of each item: its number where items come from, as in body_points */
+    int n_share;
+    body_share *share;
+    int32_t *share_of;      /* [n_slab][n_body] 1 + number of the share, 0: adds directly; NULL: no shares */
     int follows;            /* items come with the bodies */
     const double *weight;   /* of such items: reference weights, [n_item][n_q]                 */
     const double (*ref)[3]; /* of such items: [n_item][n_q], see body_points */
@@ -124,13 +149,18 @@ typedef struct assembly_class {
     int64_t n_batch;
     int64_t *batch; /* first item of each batch, [n_batch + 1]                  */
     int n_slab;
-    int64_t *slab; /* first batch of each slab, [n_slab + 2]; the last range is
-                      the interface, done after the slabs by one thread         */
+    int64_t *slab;        /* first batch of each slab, [n_slab + 2]; the last range is
+                             the interface, done after the slabs by one thread         */
+    int64_t *first_fresh; /* of each batch, [n_batch + 1], in: */
+    int32_t *fresh;       /* nodes that no earlier batch has; NULL: not all nodes of the mesh are in some batch */
     int n_q;
     int n_basis[3];  /* basis functions of a field of each order on an item: of two cells, two bodies */
     fe_rule rule[6]; /* [0], or one per local facet                              */
     double tangent[6][2][3];
     int orient[6];
+    tensor_rule
+        *tensor; /* points and bases are products of those on a line: sums by tensor.c; NULL: they are not */
+    int32_t *place[SPACE_MAX_FIELDS][SPACE_MAX_FIELDS]; /* of such a class: see tensor_matrix; NULL: no coupling */
     double *n_ref[6][3]; /* [order][q][i], basis of order 1 and 2 at the points       */
     double (*dn_ref[6][3])[3];
     double (*d2n_ref[6][3])[FE_SECOND]; /* where Laplacians are asked for, else NULL; order 2 is the mapping's */
@@ -157,12 +187,18 @@ typedef struct assembly {
     int n_thread, n_class;
     assembly_class *class_;
     struct workspace *work; /* [n_thread] */
-    int n_use;              /* terms, each once, also those on points of several classes */
+    double *share_sum;      /* see body_share */
+    int64_t share_room;
+    arena share_memory;
+    int n_use; /* terms, each once, also those on points of several classes */
     term_use **use;
-    const body_points *bodies; /* of the last evaluation; NULL: none */
-    int bodies_stamp;          /* of those that the classes have their items from */
-    uint8_t *none_idle;        /* [n_dof] zero */
-    const uint8_t *idle;       /* [n_dof] of the last evaluation */
+    const body_points *bodies;   /* of the last evaluation; NULL: none */
+    int bodies_stamp;            /* of those that the classes have their items from */
+    int clears;                  /* batches of the first class zero the rows that they come to first */
+    uint8_t *none_idle;          /* [n_dof] zero */
+    const uint8_t *idle;         /* [n_dof] of the last evaluation */
+    int32_t *row_of, *column_of; /* [n_dof] of the matrix that is formed: row; column within those of its carrier;
+                                    -1: the unknown is prescribed, or off now */
     arena memory;
 } assembly;
 
@@ -216,106 +252,5 @@ int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int 
 int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err);
 
 void assembly_destroy(assembly *a);
-
-/* --- between the files of this folder ------------------------------------------------- */
-
-typedef struct workspace {
-    v8 *x_node; /* [dim][nodes]                                            */
-    v8 *gap, *size[2], *other_density;
-    v8 *arm, *density;        /* [dim][n_q], [n_q] */
-    int32_t *id;              /* [n_q][8] */
-    v8 *w, *x, *normal, *h;   /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
-    v8 *metric;               /* [dim*dim][n_q], see pf_batch; NULL: no class has it */
-    v8 *basis[3][BASIS_ROWS]; /* [order][value, d/dx, d/dy, d/dz, Laplacian]: [i][n_q], i padded; NULL: not used */
-    v8 *dof;                  /* nodal values of one field                               */
-    const v8 *frame;          /* w and history of this batch, see assembly_class; NULL: none */
-    v8 *in, *test, *block, *out, *jac, *room;
-    v8 *g;               /* one strip of D B_j                                      */
-    v8 *vec, *mat;       /* element vector and matrix of one field (pair)            */
-    v8 *still, *unknown; /* zeros for a rate; the unknowns as the tests take them [test_size] */
-    const v8 *unknown_of[ASSEMBLE_MAX_TESTS]; /* of each test of the class: there, or among the inputs */
-    double (*power)[POWERS];                  /* [assembly.n_use] */
-    void *scratch;
-    term_report report;
-    int64_t failed_batch;
-    arena memory;
-} workspace;
-
-/* Gives the classes that follow the bodies their items, if these are others than before (items.c). */
-int items_take(assembly *a, const body_points *b, error *err);
-int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err);
-/* Room for the values of the case's functions at the points of a class. */
-int inputs_room(arena *memory, assembly_class *c, error *err);
-int plan_workspace(const assembly *a, workspace *w, error *err);
-int inputs_functions(assembly *a, assembly_class *c, workspace *w, double t, error *err);
-/* History along moving paths at all points near bodies; once per placement of these (history.c). */
-int history_update(const assembly *a, assembly_class *c, workspace *w, const moving_frame *f, error *err);
-/* Of the batch: takes an input du/dt over to the moving paths; w->dof: nodal values of its field now. */
-void history_take(const assembly *a, const assembly_class *c, const assembly_state *s, const plan_input *in,
-                  workspace *w);
-/* Its part of the Jacobian: d(du/dt) = shift du - w . grad du. */
-void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
-                      size_t ld, const double *velocity, double *block);
-/* Laplacians of basis functions at a point, one a lane: M : d^2 n - e . dn with reference derivatives, where
- * M = G G^T, G = dxi/dx, and e = G (M : d^2 x) makes up for the curvature of the mapping (second.c). */
-typedef struct laplacian {
-    v8 m[FE_SECOND], e[3];
-} laplacian;
-laplacian laplacian_of(int dim, int n_node, const v8 *x_node, const double (*d2n)[FE_SECOND], v8 inv[3][3]);
-v8 laplacian_apply(const laplacian *p, int dim, const double dn[3], const double d2n[FE_SECOND]);
-/* Component (a, b) of pf_batch.metric; inv = dxi/dx. */
-v8 metric_of(int dim, int simplex, v8 inv[3][3], int a, int b);
-void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
-void inputs_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
-                   workspace *w);
-/* The unknowns that the rows of the class belong to, as their test functions enter (value or gradient). */
-void inputs_unknowns(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
-                     workspace *w);
-/* Adds the power of a term with outputs `out` to w->power (power.c); the outputs are overwritten. */
-int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, const plan_use *p, double factor,
-              const pf_batch *b, const double *const *in, double *const *out, workspace *w);
-void power_clear(assembly *a);
-/* The sums of all threads, in their order. */
-void power_sum(const assembly *a, assembly_power *power);
-/* Whether any term of the class takes part in this state. */
-int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s);
-int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
-                   int with_matrix, int diagnose, workspace *w);
-void element_vector(const assembly *a, const assembly_class *c, int field, workspace *w);
-/* 0 if the fields do not couple. */
-int element_matrix(const assembly *a, const assembly_class *c, int row_field, int col_field, workspace *w);
-
-/* Item of lane l of a batch; lanes past the end repeat the last one. */
-static inline int64_t assemble_item(const assembly_class *c, int64_t batch, int lane)
-{
-    int64_t first = c->batch[batch], last = c->batch[batch + 1] - 1, i = first + lane;
-
-    return i < last ? i : last;
-}
-
-static inline int assemble_padded(int n)
-{
-    return (n + ASSEMBLE_PAD - 1) / ASSEMBLE_PAD * ASSEMBLE_PAD;
-}
-
-/* Carrier of local node i of a field on a cell (index into the cell's carriers). */
-static inline int assemble_local(const space *s, int field, int i)
-{
-    const fe_cell *type = s->mesh->type;
-
-    if (s->field[field].order)
-        return s->field[field].order == 2 ? i : type->vertex[i];
-    return type->n_node + (s->field[field].support == PF_ON_PARTICLE ? s->any_problem : 0);
-}
-
-/* The same on an item of a class: a pair lists two bodies, a bad cell and its root the nodes of both. */
-static inline int assemble_item_local(const assembly_class *c, const space *s, int field, int i)
-{
-    int n = fe_n_basis(s->mesh->type, s->field[field].order);
-
-    if (c->where == PF_PAIR)
-        return i;
-    return i < n ? assemble_local(s, field, i) : s->mesh->type->n_node + assemble_local(s, field, i - n);
-}
 
 #endif

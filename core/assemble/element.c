@@ -5,9 +5,9 @@
  *     r_i^a    = sum_q w sum_e B_i^e s^{a e}               e = value, d/dx, d/dy, d/dz
  *     K_ij^ab  = sum_q w sum_e B_i^e sum_f D^{a e, b f} B_j^f       f may be the Laplacian too
  *
- * Entries of D that vanish at all points (most of them do in Navier-Stokes) are found and
- * skipped.  The inner loop keeps a 3 x 3 tile of K in registers. */
-#include "assemble/assemble.h"
+ * Entries of D that no term filled (most of them in Navier-Stokes) are skipped.  The inner loop keeps a 3 x 3 tile
+ * of K in registers. */
+#include "assemble/batch.h"
 
 #include <string.h>
 
@@ -22,16 +22,23 @@ static int find_basis(const plan_basis *list, int n, int field, enum basis_kind 
 void element_vector(const assembly *a, const assembly_class *c, int field, workspace *w)
 {
     const field_spec *f = &a->space->field[field];
+    const int *at = c->layout.at[field];
     int dim = a->space->mesh->dim, nq = c->n_q, n = c->n_basis[f->order];
 
-    memset(w->vec, 0, (size_t)(f->n_comp * n) * sizeof *w->vec);
+    if (c->tensor) {
+        int value = find_basis(c->test, c->n_test, field, BASIS_VALUE);
+        int grad = find_basis(c->test, c->n_test, field, BASIS_GRAD);
+
+        element_vector_tensor(c, field, f, value < 0 ? NULL : w->test + c->test[value].at * (size_t)nq,
+                              grad < 0 ? NULL : w->test + c->test[grad].at * (size_t)nq, w);
+        return;
+    }
     for (int grad = 0; grad < 2; grad++) {
         int t = find_basis(c->test, c->n_test, field, grad ? BASIS_GRAD : BASIS_VALUE);
 
         for (int e = 0; t >= 0 && e < f->n_comp * (grad ? dim : 1); e++) {
             const v8 *restrict s = w->test + (c->test[t].at + (size_t)e) * (size_t)nq;
             const v8 *basis = w->basis[f->order][grad ? 1 + e % dim : 0];
-            v8 *r = w->vec + (grad ? e / dim : e) * n;
 
             for (int i = 0; i < n; i++) {
                 const v8 *restrict b = basis + i * nq;
@@ -39,20 +46,10 @@ void element_vector(const assembly *a, const assembly_class *c, int field, works
 
                 for (int q = 0; q < nq; q++)
                     sum += w->w[q] * b[q] * s[q];
-                r[i] += sum;
+                w->vec[at[i] + (grad ? e / dim : e)] += sum;
             }
         }
     }
-}
-
-static int all_zero(const v8 *d, int n)
-{
-    const double *x = (const double *)d;
-    int any = 0;
-
-    for (int i = 0; i < n * 8; i++)
-        any |= x[i] != 0;
-    return !any;
 }
 
 /* Test functions of one field and trial functions of another, by kind; -1: not used. */
@@ -77,12 +74,11 @@ static int coefficients(const assembly_class *c, const basis_pair *p, int a, int
             for (int e = 0; e < (ge ? dim : 1); e++)
                 for (int f = 0; f < (gf == BASIS_GRAD ? dim : 1); f++) {
                     int row = ge ? a * dim + e : a, col = gf == BASIS_GRAD ? b * dim + f : b;
-                    const v8 *at =
-                        w->block + (c->block[t][r] + (size_t)(row * c->trial[r].n_comp + col)) * (size_t)c->n_q;
+                    size_t entry = c->block[t][r] + (size_t)(row * c->trial[r].n_comp + col);
 
-                    if (all_zero(at, c->n_q))
+                    if (!w->filled[entry])
                         continue;
-                    d[first_row[ge] + e][first_row[gf] + f] = at;
+                    d[first_row[ge] + e][first_row[gf] + f] = w->block + entry * (size_t)c->n_q;
                     any = 1;
                 }
         }
@@ -111,8 +107,16 @@ static void strip(const v8 *d[TEST_ROWS][BASIS_ROWS], v8 *const *basis, int j0, 
     }
 }
 
+/* Where a block of K goes: entry (i, j) to k[row[i] + column[j]]. */
+typedef struct block_place {
+    v8 *k;
+    int n_row, n_col, width;
+    const int *row, *column;
+} block_place;
+
 /* A 3 x 3 tile of K: sum_e sum_q B_i^e g_j^e. */
-static void tile(const int *row_used, v8 *const *basis, int i0, int nq, int dim, const v8 *g, v8 *k, int n_col)
+static void tile(const int *row_used, v8 *const *basis, int i0, int j0, int nq, int dim, const v8 *g,
+                 const block_place *to)
 {
     v8 s[3][3] = {{{0}}};
 
@@ -130,45 +134,68 @@ static void tile(const int *row_used, v8 *const *basis, int i0, int nq, int dim,
             s[2][0] += b2 * g0, s[2][1] += b2 * g1, s[2][2] += b2 * g2;
         }
     }
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            k[i * n_col + j] = s[i][j];
+    for (int i = 0; i < 3 && i0 + i < to->n_row; i++)
+        for (int j = 0; j < 3 && j0 + j < to->n_col; j++)
+            to->k[to->row[i0 + i] * to->width + to->column[j0 + j]] = s[i][j];
 }
 
-int element_matrix(const assembly *as, const assembly_class *c, int row_field, int col_field, workspace *w)
+static void clear_block(const block_place *to)
 {
-    const space *s = as->space;
-    const field_spec *rf = &s->field[row_field], *cf = &s->field[col_field];
-    int dim = s->mesh->dim, nq = c->n_q, coupled = 0;
-    int n_row = assemble_padded(c->n_basis[rf->order]);
-    int n_col = assemble_padded(c->n_basis[cf->order]);
-    basis_pair p;
+    for (int i = 0; i < to->n_row; i++)
+        for (int j = 0; j < to->n_col; j++)
+            to->k[to->row[i] * to->width + to->column[j]] = (v8){0};
+}
+
+static void block_by_tiles(const v8 *d[TEST_ROWS][BASIS_ROWS], const field_spec *rf, const field_spec *cf, int dim,
+                           int nq, const block_place *to, workspace *w)
+{
+    int row_used[TEST_ROWS];
+
+    for (int e = 0; e < TEST_ROWS; e++) {
+        row_used[e] = 0;
+        for (int f = 0; f < BASIS_ROWS; f++)
+            row_used[e] |= d[e][f] != NULL;
+    }
+    for (int j = 0; j < to->n_col; j += 3) {
+        strip(d, w->basis[cf->order], j, nq, dim, w->w, w->g);
+        for (int i = 0; i < to->n_row; i += 3)
+            tile(row_used, w->basis[rf->order], i, j, nq, dim, w->g, to);
+    }
+}
+
+static void field_block(const assembly *as, const assembly_class *c, int row_field, int col_field, workspace *w)
+{
+    const field_spec *rf = &as->space->field[row_field], *cf = &as->space->field[col_field];
+    const element_layout *p = &c->layout;
+    int dim = as->space->mesh->dim;
+    basis_pair pair;
 
     for (enum basis_kind e = BASIS_VALUE; e <= BASIS_GRAD; e++)
-        p.test[e] = find_basis(c->test, c->n_test, row_field, e);
+        pair.test[e] = find_basis(c->test, c->n_test, row_field, e);
     for (enum basis_kind e = BASIS_VALUE; e <= BASIS_LAPLACE; e++)
-        p.trial[e] = find_basis(c->trial, c->n_trial, col_field, e);
+        pair.trial[e] = find_basis(c->trial, c->n_trial, col_field, e);
     for (int a = 0; a < rf->n_comp; a++)
         for (int b = 0; b < cf->n_comp; b++) {
-            v8 *k = w->mat + (a * cf->n_comp + b) * n_row * n_col;
             const v8 *d[TEST_ROWS][BASIS_ROWS];
-            int row_used[TEST_ROWS];
+            block_place to = {.k = w->mat + a * p->width + b,
+                              .n_row = c->n_basis[rf->order],
+                              .n_col = c->n_basis[cf->order],
+                              .width = p->width,
+                              .row = p->at[row_field],
+                              .column = p->at[col_field]};
 
-            if (!coefficients(c, &p, a, b, dim, w, d)) {
-                memset(k, 0, (size_t)(n_row * n_col) * sizeof *k);
-                continue;
-            }
-            coupled = 1;
-            for (int e = 0; e < TEST_ROWS; e++) {
-                row_used[e] = 0;
-                for (int f = 0; f < BASIS_ROWS; f++)
-                    row_used[e] |= d[e][f] != NULL;
-            }
-            for (int j = 0; j < n_col; j += 3) {
-                strip(d, w->basis[cf->order], j, nq, dim, w->w, w->g);
-                for (int i = 0; i < n_row; i += 3)
-                    tile(row_used, w->basis[rf->order], i, nq, dim, w->g, k + i * n_col + j, n_col);
-            }
+            if (!coefficients(c, &pair, a, b, dim, w, d))
+                clear_block(&to);
+            else if (c->tensor)
+                element_matrix_tensor(c, rf->order, cf->order, d, c->place[row_field][col_field], to.k, w);
+            else
+                block_by_tiles(d, rf, cf, dim, c->n_q, &to, w);
         }
-    return coupled;
+}
+
+void element_matrix(const assembly *a, const assembly_class *c, int field, workspace *w)
+{
+    for (int g = 0; g < a->space->n_field; g++)
+        if (c->layout.coupled[field] >> g & 1)
+            field_block(a, c, field, g, w);
 }

@@ -4,7 +4,7 @@
  * derivatives per pair of test and trial function. */
 #include "base/process.h"
 #include "base/text.h"
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -37,9 +37,27 @@ static void add_output(const assembly_class *c, const plan_use *p, double factor
     }
 }
 
-/* One Jacobian block, jac[oc][ic], into D[test][trial]; divergences spread over the diagonal. */
+typedef uint64_t bits __attribute__((may_alias));
+
+/* No bit set but for signs.  Most of what is not zero shows in the first lanes. */
+static int all_zero(const double *x, size_t n)
+{
+    const bits *b = (const bits *)x;
+    uint64_t any = 0;
+
+    for (size_t i = 0; i < PF_LANES; i++)
+        any |= b[i];
+    if (any << 1)
+        return 0;
+    for (size_t i = PF_LANES; i < n; i++)
+        any |= b[i];
+    return !(any << 1);
+}
+
+/* One Jacobian block, jac[oc][ic], into D[test][trial]; divergences spread over the diagonal.  Most derivatives
+ * vanish, and D keeps no record of those. */
 static void add_block(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
-                      size_t ld, double *block)
+                      size_t ld, double *block, uint8_t *filled)
 {
     int oc = out->eval == PF_DIV ? dim : term_components(out->shape, dim);
     int ic = in->eval == PF_DIV ? dim : term_components(in->shape, dim);
@@ -51,9 +69,13 @@ static void add_block(const pf_slot *out, const pf_slot *in, int n_trial, double
             const double *restrict from =
                 jac + (size_t)((out->eval == PF_DIV ? 0 : a) * jc + (in->eval == PF_DIV ? 0 : b)) * ld;
             double *restrict to = block + (size_t)(row * n_trial + col) * ld;
+            uint8_t *seen = &filled[row * n_trial + col];
 
+            if (all_zero(from, ld))
+                continue;
             for (size_t i = 0; i < ld; i++)
-                to[i] += factor * from[i];
+                to[i] = *seen ? to[i] + factor * from[i] : factor * from[i];
+            *seen = 1;
         }
 }
 
@@ -124,12 +146,12 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
             block = c->block[p->out[o]][p->trial[k]];
             if (block != SIZE_MAX)
                 add_block(&t->out[o], &t->in[k], c->trial[p->trial[k]].n_comp, factor, jac[o * t->n_in + k], dim,
-                          ld, (double *)(w->block + block * (size_t)c->n_q));
+                          ld, (double *)(w->block + block * (size_t)c->n_q), w->filled + block);
             block = p->slope[k] >= 0 && w->frame ? c->block[p->out[o]][p->slope[k]] : SIZE_MAX;
             if (block != SIZE_MAX && (s->frame->fields >> c->trial[p->slope[k]].field & 1))
                 history_jacobian(&t->out[o], &t->in[k], c->trial[p->slope[k]].n_comp, strength(s, p),
                                  jac[o * t->n_in + k], dim, ld, (const double *)w->frame,
-                                 (double *)(w->block + block * (size_t)c->n_q));
+                                 (double *)(w->block + block * (size_t)c->n_q), w->filled + block);
         }
     return status;
 }
@@ -242,7 +264,7 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
 
     memset(w->test, 0, c->test_size * nq * sizeof(v8));
     if (with_matrix)
-        memset(w->block, 0, c->block_size * nq * sizeof(v8));
+        memset(w->filled, 0, c->block_size);
     if (s->power)
         inputs_unknowns(a, c, s, batch, w);
     for (int u = 0; u < c->n_use; u++) {

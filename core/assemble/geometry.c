@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Points of a batch: where they are, their weights, and the basis functions there. */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 #include <math.h>
-#include <string.h>
 
 static v8 v8_sqrt(v8 a)
 {
@@ -17,7 +16,6 @@ static v8 v8_sqrt(v8 a)
 static v8 mapping(int dim, int n_node, const v8 *x_node, const double (*dn)[3], v8 j[3][3], v8 inv[3][3])
 {
     const v8 zero = {0};
-    v8 det;
 
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++)
@@ -26,23 +24,7 @@ static v8 mapping(int dim, int n_node, const v8 *x_node, const double (*dn)[3], 
         for (int i = 0; i < n_node; i++)
             for (int b = 0; b < dim; b++)
                 j[a][b] += x_node[a * n_node + i] * dn[i][b];
-    if (dim == 2) {
-        det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
-        inv[0][0] = j[1][1] / det, inv[0][1] = -j[0][1] / det;
-        inv[1][0] = -j[1][0] / det, inv[1][1] = j[0][0] / det;
-        return det;
-    }
-    for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++) {
-            int p = (b + 1) % 3, q = (b + 2) % 3, r = (a + 1) % 3, t = (a + 2) % 3;
-
-            inv[a][b] = j[p][r] * j[q][t] - j[p][t] * j[q][r]; /* cofactor of (b, a) */
-        }
-    det = j[0][0] * inv[0][0] + j[0][1] * inv[1][0] + j[0][2] * inv[2][0];
-    for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++)
-            inv[a][b] /= det;
-    return det;
+    return geometry_inverse(dim, j, inv);
 }
 
 /* Area element and outward normal of a facet from the mapped tangents. */
@@ -103,7 +85,7 @@ static void points_of_pairs(const assembly *a, const assembly_class *c, int64_t 
     for (int k = 0; k <= ASSEMBLE_PAD; k++)
         w->basis[0][0][k] = zero + (k == 0 ? 1.0 : k == 1 ? -1.0 : 0.0);
     for (int l = 0; l < 8; l++) {
-        const near_pair *near = &c->pair[assemble_item(c, batch, l)];
+        const near_pair *near = &c->pair[c->source[assemble_item(c, batch, l)]];
 
         w->h[0][l] = near->h;
         w->gap[0][l] = near->gap;
@@ -154,18 +136,18 @@ static void points_of_surface(const assembly *a, const assembly_class *c, int64_
     int dim = m->dim, nq = c->n_q;
 
     for (int l = 0; l < 8; l++) {
-        int64_t item = assemble_item(c, batch, l), cell = c->cell[item];
+        int64_t item = assemble_item(c, batch, l), cell = c->cell[item], from = c->source[item];
 
         for (int q = 0; q < nq; q++) {
-            const double *xi = c->ref[item * nq + q];
+            const double *xi = c->ref[from * nq + q];
             double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], x[3], inv[3][3];
 
             map_point(m, cell, xi, x, inv);
-            w->w[q][l] = c->weight[item * nq + q];
+            w->w[q][l] = c->weight[from * nq + q];
             w->h[q][l] = m->h[cell];
             for (int k = 0; k < dim; k++) {
                 w->x[k * nq + q][l] = x[k];
-                w->normal[k * nq + q][l] = c->normal[item * nq + q][k];
+                w->normal[k * nq + q][l] = c->normal[from * nq + q][k];
             }
             for (int order = 0; order < 3; order++) {
                 int n_basis = c->order_used[order] ? fe_n_basis(type, order) : 0;
@@ -197,7 +179,7 @@ static void second_on_surface(const assembly *a, const assembly_class *c, int64_
     for (int l = 0; l < 8; l++)
         for (int q = 0; q < nq; q++) {
             int64_t item = assemble_item(c, batch, l);
-            const double *xi = c->ref[item * nq + q];
+            const double *xi = c->ref[c->source[item] * nq + q];
             double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], d2n[FE_MAX_NODES][FE_SECOND], x[3], at[3][3];
             v8 inv[3][3];
             laplacian p;
@@ -234,7 +216,7 @@ static void points_of_roots(const assembly *a, const assembly_class *c, int64_t 
 
     for (int l = 0; l < 8; l++)
         for (int q = 0; q < nq; q++) {
-            int64_t item = assemble_item(c, batch, l);
+            int64_t item = c->source[assemble_item(c, batch, l)];
 
             w->w[q][l] *= c->weight[item];
             for (int order = 1; order < 3; order++) {
@@ -313,6 +295,12 @@ void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, 
         particle_slots(a, c, batch, w);
         return;
     }
+    if (c->tensor) {
+        geometry_tensor(a, c, batch, w);
+        if (c->where == PF_SOLID)
+            particle_slots(a, c, batch, w);
+        return;
+    }
     take_nodes(a, c, batch, w);
     for (int l = 0; l < 8; l++) {
         int64_t cell = c->cell[assemble_item(c, batch, l)];
@@ -332,7 +320,7 @@ void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, 
         }
         if (c->weight && c->where != PF_CUT)
             for (int l = 0; l < 8; l++)
-                w->w[q][l] = det[l] * c->weight[assemble_item(c, batch, l) * nq + q];
+                w->w[q][l] = det[l] * c->weight[c->source[assemble_item(c, batch, l)] * nq + q];
         else
             w->w[q] = det * c->rule[f].w[q] * on;
         w->h[q] = h;

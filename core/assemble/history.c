@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * du/dt along paths that follow moving bodies (see moving_frame). */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
+#include <omp.h>
 #include <string.h>
 
 static int frame_components(const space *s, const moving_frame *f)
@@ -15,8 +16,7 @@ static int frame_components(const space *s, const moving_frame *f)
 }
 
 /* w = 0 and the usual history at a point. */
-static void stay(const assembly *a, const assembly_class *c, const workspace *w, const moving_frame *f,
-                 int64_t item, int q, int lane, double *v)
+static void stay(const assembly *a, const assembly_class *c, const moving_frame *f, int64_t item, int q, double *v)
 {
     const space *s = a->space;
     const int32_t *node = s->mesh->cell + (int64_t)c->cell[item] * s->mesh->type->n_node;
@@ -30,16 +30,37 @@ static void stay(const assembly *a, const assembly_class *c, const workspace *w,
             const double *u = f->u + s->first[k][node[assemble_local(s, k, i)]];
 
             for (int j = 0; j < n_comp; j++)
-                v[at + j] += u[j] * w->basis[order][0][i * c->n_q + q][lane];
+                v[at + j] += u[j] * c->n_ref[0][order][q * c->n_basis[order] + i];
         }
         at += n_comp;
     }
 }
 
-int history_update(const assembly *a, assembly_class *c, workspace *w, const moving_frame *f, error *err)
+/* Velocity of the path and history at the points of a batch. */
+static void take_batch(const assembly *a, const assembly_class *c, workspace *w, const moving_frame *f, int64_t b,
+                       int n_comp)
+{
+    int dim = a->space->mesh->dim, nq = c->n_q;
+    v8 *to = c->frame + c->frame_at[b];
+
+    geometry_points(a, c, b, w);
+    for (int64_t item = c->batch[b]; item < c->batch[b + 1]; item++)
+        for (int q = 0, l = (int)(item - c->batch[b]); q < nq; q++) {
+            double x[3] = {0}, v[3 + VALUE_MAX * SPACE_MAX_FIELDS];
+
+            for (int k = 0; k < dim; k++)
+                x[k] = w->x[k * nq + q][l];
+            if (!f->at(f->ctx, c->cell[item], x, v, v + dim))
+                stay(a, c, f, item, q, v);
+            for (int k = 0; k < n_comp; k++)
+                to[k * nq + q][l] = v[k];
+        }
+}
+
+int history_update(const assembly *a, assembly_class *c, const moving_frame *f, error *err)
 {
     const space *s = a->space;
-    int dim = s->mesh->dim, nq = c->n_q, n_comp;
+    int nq = c->n_q, n_comp;
     int64_t n = 0;
 
     if (!f || c->where != PF_FLUID || c->frame_stamp == f->stamp)
@@ -57,27 +78,10 @@ int history_update(const assembly *a, assembly_class *c, workspace *w, const mov
         n += near;
     }
     ARENA_NEW(&c->frame_memory, c->frame, n * n_comp * nq + 1, err);
-    for (int64_t b = 0; b < c->n_batch; b++) {
-        v8 *to = c->frame + c->frame_at[b];
-
-        if (c->frame_at[b] < 0)
-            continue;
-        geometry_points(a, c, b, w);
-        for (int l = 0; l < 8; l++) {
-            int64_t item = c->batch[b] + l;
-
-            for (int q = 0; item < c->batch[b + 1] && q < nq; q++) {
-                double x[3] = {0}, v[3 + VALUE_MAX * SPACE_MAX_FIELDS];
-
-                for (int k = 0; k < dim; k++)
-                    x[k] = w->x[k * nq + q][l];
-                if (!f->at(f->ctx, c->cell[item], x, v, v + dim))
-                    stay(a, c, w, f, item, q, l, v);
-                for (int k = 0; k < n_comp; k++)
-                    to[k * nq + q][l] = v[k];
-            }
-        }
-    }
+#pragma omp parallel for num_threads(f->one_thread ? 1 : a->n_thread) schedule(dynamic, 4)
+    for (int64_t b = 0; b < c->n_batch; b++)
+        if (c->frame_at[b] >= 0)
+            take_batch(a, c, &a->work[omp_get_thread_num()], f, b, n_comp);
     c->frame_stamp = f->stamp;
     return 0;
 }
@@ -86,30 +90,25 @@ void history_take(const assembly *a, const assembly_class *c, const assembly_sta
                   workspace *w)
 {
     const field_spec *field = &a->space->field[in->field];
-    int dim = a->space->mesh->dim, nq = c->n_q, n = c->n_basis[field->order], at = dim;
+    int dim = a->space->mesh->dim, nq = c->n_q, at = dim;
+    v8 *dot = w->in + in->at * (size_t)nq, *value = w->rate, *grad = w->rate + in->n_comp * nq;
 
     for (int k = 0; k < in->field; k++)
         at += s->frame->fields >> k & 1 ? a->space->field[k].n_comp : 0;
-    for (int k = 0; k < in->n_comp; k++) {
-        v8 *restrict dot = w->in + (in->at + (size_t)k) * (size_t)nq;
+    interpolate(c, field, dim, PF_VALUE, w, value);
+    interpolate(c, field, dim, PF_GRAD, w, grad);
+    for (int k = 0; k < in->n_comp; k++)
+        for (int q = 0; q < nq; q++) {
+            v8 rate = w->frame[(at + k) * nq + q] + s->shift * value[k * nq + q];
 
-        memcpy(dot, w->frame + (at + k) * nq, (size_t)nq * sizeof *dot);
-        for (int i = 0; i < n; i++) {
-            v8 u = w->dof[k * n + i];
-
-            for (int q = 0; q < nq; q++) {
-                v8 rate = s->shift * w->basis[field->order][0][i * nq + q];
-
-                for (int d = 0; d < dim; d++)
-                    rate -= w->frame[d * nq + q] * w->basis[field->order][d + 1][i * nq + q];
-                dot[q] += u * rate;
-            }
+            for (int d = 0; d < dim; d++)
+                rate -= w->frame[d * nq + q] * grad[(k * dim + d) * nq + q];
+            dot[k * nq + q] = rate;
         }
-    }
 }
 
 void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
-                      size_t ld, const double *velocity, double *block)
+                      size_t ld, const double *velocity, double *block, uint8_t *filled)
 {
     int oc = out->eval == PF_DIV ? dim : term_components(out->shape, dim), ic = term_components(in->shape, dim);
 
@@ -120,8 +119,10 @@ void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double
                 const double *restrict from = jac + (size_t)((out->eval == PF_DIV ? 0 : a) * ic + b) * ld;
                 const double *restrict w = velocity + (size_t)k * ld;
                 double *restrict to = block + (size_t)(row * n_trial + b * dim + k) * ld;
+                uint8_t *seen = &filled[row * n_trial + b * dim + k];
 
                 for (size_t i = 0; i < ld; i++)
-                    to[i] -= factor * w[i] * from[i];
+                    to[i] = (*seen ? to[i] : 0) - factor * w[i] * from[i];
+                *seen = 1;
             }
 }

@@ -2,53 +2,25 @@
  *
  * What terms read at the points of a batch: fields, interpolated from nodal values, and the case's own functions.
  */
-#include "assemble/assemble.h"
-
-#include <string.h>
+#include "assemble/batch.h"
 
 /* Nodal values of a field on the items of a batch, dof[comp][i]; zero where there is no carrier (a wall). */
 static void gather(const assembly *a, const assembly_class *c, int64_t batch, int field, const double *x, v8 *dof)
 {
-    const space *s = a->space;
-    int n = c->n_basis[s->field[field].order], n_comp = s->field[field].n_comp;
-    int on_cells = c->where != PF_CUT && s->field[field].order > 0;
+    const field_spec *f = &a->space->field[field];
+    const int *at = c->layout.at[field];
+    int n = c->n_basis[f->order];
 
     for (int l = 0; l < 8; l++) {
-        int64_t item = assemble_item(c, batch, l), group = c->group[item];
-        const int32_t *node = on_cells ? s->mesh->cell + (int64_t)c->cell[item] * s->mesh->type->n_node : NULL;
+        const int32_t *restrict of = c->dof + assemble_item(c, batch, l) * c->layout.n;
 
-        for (int i = 0; i < n; i++) {
-            int32_t carrier = on_cells ? node[assemble_local(s, field, i)] /* shows its master's unknowns */
-                                       : space_carrier(s, group, assemble_item_local(c, s, field, i));
-
-            for (int k = 0; k < n_comp; k++)
-                dof[k * n + i][l] = carrier < 0 ? 0 : x[s->first[field][carrier] + k];
-        }
-    }
-}
-
-static void interpolate(const workspace *w, const plan_input *in, int order, int n, int n_comp, int nq, int dim,
-                        v8 *restrict out)
-{
-    int grad = in->eval == PF_GRAD, div = in->eval == PF_DIV;
-    int first = in->eval == PF_LAPLACE ? LAPLACE_ROW : grad || div ? 1 : 0;
-    int last = grad || div ? dim : first;
-
-    memset(out, 0, (size_t)(in->n_comp * nq) * sizeof *out);
-    for (int a = 0; a < n_comp; a++)
-        for (int k = first; k <= last; k++) {
-            v8 *restrict to = out + (grad ? (a * dim + k - 1) * nq : div ? 0 : a * nq);
-
-            if (div && k != a + 1)
-                continue;
+        for (int k = 0; k < f->n_comp; k++)
             for (int i = 0; i < n; i++) {
-                v8 u = w->dof[a * n + i];
-                const v8 *restrict b = w->basis[order][k] + i * nq;
+                int32_t d = of[at[i] + k];
 
-                for (int q = 0; q < nq; q++)
-                    to[q] += u * b[q];
+                dof[k * n + i][l] = d < 0 ? 0 : x[d];
             }
-        }
+    }
 }
 
 void inputs_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch, workspace *w)
@@ -76,8 +48,7 @@ void inputs_values(const assembly *a, const assembly_class *c, const assembly_st
             gathered = from;
             gathered_field = in->field;
         }
-        interpolate(w, in, sp->field[in->field].order, c->n_basis[sp->field[in->field].order],
-                    sp->field[in->field].n_comp, nq, dim, out);
+        interpolate(c, &sp->field[in->field], dim, in->eval, w, out);
         if (in->eval == PF_DOT && w->frame && (s->frame->fields >> in->field & 1)) {
             gather(a, c, batch, in->field, s->x, w->dof);
             gathered = s->x;
@@ -94,20 +65,19 @@ void inputs_unknowns(const assembly *a, const assembly_class *c, const assembly_
     for (int t = 0; t < c->n_test; t++) {
         const plan_basis *test = &c->test[t];
         const field_spec *f = &sp->field[test->field];
-        const plan_input as = {
-            .field = test->field, .eval = test->kind == BASIS_GRAD ? PF_GRAD : PF_VALUE, .n_comp = test->n_comp};
+        uint32_t eval = test->kind == BASIS_GRAD ? PF_GRAD : PF_VALUE;
         v8 *to = w->unknown + test->at * (size_t)c->n_q;
 
         w->unknown_of[t] = NULL;
         if (!(s->power->fields >> test->field & 1))
             continue;
         for (int k = 0; k < c->n_input; k++)
-            if (c->input[k].field == test->field && c->input[k].eval == as.eval)
+            if (c->input[k].field == test->field && c->input[k].eval == eval)
                 w->unknown_of[t] = w->in + c->input[k].at * (size_t)c->n_q;
         if (w->unknown_of[t])
             continue;
         gather(a, c, batch, test->field, s->x, w->dof);
-        interpolate(w, &as, f->order, c->n_basis[f->order], f->n_comp, c->n_q, sp->mesh->dim, to);
+        interpolate(c, f, sp->mesh->dim, eval, w, to);
         w->unknown_of[t] = to;
     }
 }

@@ -1,24 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Items of the classes that follow the bodies: which cells, pieces of surface, ties and pairs there are now. */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
-/* Room for n items of a class whose cells change. */
+int items_room(assembly_class *c, int64_t n, arena *memory, error *err)
+{
+    c->n_item = n;
+    ARENA_NEW(memory, c->cell, n + 1, err);
+    ARENA_NEW(memory, c->facet, n + 1, err);
+    ARENA_NEW(memory, c->group, n + 1, err);
+    ARENA_NEW(memory, c->source, n + 1, err);
+    for (int64_t i = 0; i < n; i++)
+        c->source[i] = (int32_t)i;
+    return 0;
+}
+
+int items_order(assembly *a, assembly_class *c, arena *memory, error *err)
+{
+    TRY(slabs_make(a, c, memory, err));
+    TRY(layout_items(a, c, memory, err));
+    TRY(fresh_find(a, c, memory, err));
+    return inputs_room(memory, c, err);
+}
+
 static int renew_items(assembly_class *c, int64_t n, error *err)
 {
     arena_free(&c->item_memory);
-    c->n_item = n;
-    c->n_batch = (n + PF_LANES - 1) / PF_LANES;
-    c->n_slab = 1;
-    ARENA_NEW(&c->item_memory, c->cell, n + 1, err);
-    ARENA_NEW(&c->item_memory, c->facet, n + 1, err);
-    ARENA_NEW(&c->item_memory, c->group, n + 1, err);
-    ARENA_NEW(&c->item_memory, c->batch, c->n_batch + 1, err);
-    ARENA_NEW(&c->item_memory, c->slab, 3, err);
-    for (int64_t b = 0; b <= c->n_batch; b++)
-        c->batch[b] = b * PF_LANES < n ? b * PF_LANES : n;
-    c->slab[1] = c->slab[2] = c->n_batch;
-    return inputs_room(&c->item_memory, c, err);
+    return items_room(c, n, &c->item_memory, err);
 }
 
 /* Items of the classes that follow the bodies, one function for each kind of points. */
@@ -98,6 +106,8 @@ int items_take(assembly *a, const body_points *b, error *err)
             TRY(set_surface(a->space, c, b, err));
         else if (c->where == PF_CUT)
             TRY(set_ties(c, b, err));
+        if (c->follows)
+            TRY(items_order(a, c, &c->item_memory, err));
     }
     a->bodies_stamp = b->stamp;
     return 0;

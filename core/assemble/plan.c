@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * What has to be computed at the points of a class of cells or facets: the distinct inputs of
- * its terms, the distinct test and trial functions, and which of them couple.  Then the order
- * of the cells: slabs for the threads, and what two slabs share. */
-#include "assemble/assemble.h"
+ * its terms, the distinct test and trial functions, and which of them couple; its points and cells. */
+#include "assemble/batch.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -184,89 +183,35 @@ static int place_rules(assembly *a, assembly_class *c, const cut_rule *cut, erro
     return 0;
 }
 
-/* Cells whose carriers only one slab touches; the others make up the interface. */
-static int split_slabs(assembly *a, assembly_class *c, const int32_t *cell, const int32_t *facet, error *err)
-{
-    const space *s = a->space;
-    int64_t at = 0, per = (c->n_item + c->n_slab - 1) / c->n_slab;
-    int32_t *owner;
-    arena scratch = {0};
-
-    if (per < 1)
-        per = 1;
-    owner = arena_alloc(&scratch, (size_t)s->n_carrier, sizeof *owner);
-    if (!owner)
-        return error_memory(err, "slabs", 4.0 * (double)s->n_carrier);
-    for (int64_t i = 0; i < c->n_item && c->n_slab > 1; i++)
-        for (int k = 0; k < s->mesh->type->n_node; k++) {
-            int32_t *o = &owner[space_carrier(s, cell[i], k)], slab = (int32_t)(i / per) + 1;
-
-            *o = *o == 0 || *o == slab ? slab : -1;
-        }
-    for (int slab = 0; slab <= c->n_slab; slab++) { /* the last round takes the interface */
-        int64_t low = slab < c->n_slab ? slab * per : 0, high = slab < c->n_slab ? (slab + 1) * per : c->n_item;
-        int64_t first = at;
-
-        c->slab[slab] = c->n_batch;
-        for (int64_t i = low; i < high && i < c->n_item; i++) {
-            int shared = 0;
-
-            for (int k = 0; k < s->mesh->type->n_node; k++)
-                shared |= owner[space_carrier(s, cell[i], k)] < 0;
-            if (shared != (slab == c->n_slab))
-                continue;
-            if (at == first || (at - c->batch[c->n_batch - 1]) == PF_LANES ||
-                (facet && c->facet[at - 1] != facet[i]))
-                c->batch[c->n_batch++] = at;
-            c->cell[at] = cell[i];
-            c->group[at] = cell[i];
-            c->facet[at++] = facet ? facet[i] : 0;
-        }
-    }
-    c->slab[c->n_slab + 1] = c->n_batch;
-    c->batch[c->n_batch] = c->n_item;
-    arena_free(&scratch);
-    return 0;
-}
-
 static int place_items(assembly *a, assembly_class *c, const assembly_spec *spec, error *err)
 {
     const mesh *m = a->space->mesh;
-    int32_t *cell, *facet = NULL;
     int64_t n = 0;
 
     for (int64_t f = 0; spec->where == PF_FACET && f < m->n_facet; f++)
         n += spec->facet_on[f];
-    c->n_item = spec->where == PF_FACET ? n : m->n_cell;
-    ARENA_NEW(&a->memory, cell, c->n_item, err);
-    ARENA_NEW(&a->memory, c->cell, c->n_item, err);
-    ARENA_NEW(&a->memory, c->facet, c->n_item, err);
-    ARENA_NEW(&a->memory, c->group, c->n_item, err);
-    ARENA_NEW(&a->memory, c->batch, c->n_item + 1, err);
-    ARENA_NEW(&a->memory, c->slab, c->n_slab + 2, err);
-    if (spec->where == PF_FACET) {
-        ARENA_NEW(&a->memory, facet, c->n_item, err);
-        n = 0;
-        for (int64_t f = 0; f < m->n_facet; f++)
-            if (spec->facet_on[f]) {
-                cell[n] = m->facet[f].cell;
-                facet[n++] = m->facet[f].local;
-            }
-    } else {
-        for (int64_t i = 0; i < m->n_cell; i++)
-            cell[i] = (int32_t)i;
+    TRY(items_room(c, spec->where == PF_FACET ? n : m->n_cell, &a->memory, err));
+    n = 0;
+    for (int64_t f = 0; spec->where == PF_FACET && f < m->n_facet; f++)
+        if (spec->facet_on[f]) {
+            c->cell[n] = m->facet[f].cell;
+            c->facet[n++] = m->facet[f].local;
+        }
+    for (int64_t i = 0; i < c->n_item; i++) {
+        if (spec->where != PF_FACET)
+            c->cell[i] = (int32_t)i;
+        c->group[i] = c->cell[i];
     }
-    return split_slabs(a, c, cell, facet, err);
+    return items_order(a, c, &a->memory, err);
 }
 
 int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err)
 {
     const space *s = a->space;
-    int serial;
 
     c->where = spec->where;
     c->follows = spec->rule != NULL || spec->where == PF_PAIR || spec->where == PF_SURFACE || spec->where == PF_CUT;
-    serial = c->follows || c->where == PF_FACET;
+    c->serial = c->where == PF_FACET || c->where == PF_PAIR;
     for (int order = 0; order < 3; order++)
         c->n_basis[order] =
             fe_n_basis(s->mesh->type, order) * (c->where == PF_CUT || (c->where == PF_PAIR && order == 0) ? 2 : 1);
@@ -280,81 +225,17 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
     for (int t = 0; t < c->n_test; t++) {
         c->test[t].at = c->test_size;
         c->test_size += (size_t)c->test[t].n_comp;
-        serial |= s->field[c->test[t].field].support != PF_ON_MESH; /* one row for all cells */
+        c->serial |= s->field[c->test[t].field].support == PF_ON_PROBLEM; /* one row for all cells */
         for (int r = 0; r < c->n_trial; r++)
             if (c->block[t][r] == 0) {
                 c->block[t][r] = c->block_size;
                 c->block_size += (size_t)(c->test[t].n_comp * c->trial[r].n_comp);
             }
     }
-    c->n_slab = serial ? 1 : a->n_thread;
     TRY(place_rules(a, c, spec->rule, err));
+    TRY(layout_create(a, c, err));
+    TRY(layout_tensor(a, c, err));
     if (c->follows)
         return 0; /* its items come with the bodies */
-    TRY(place_items(a, c, spec, err));
-    return inputs_room(&a->memory, c, err);
-}
-
-int plan_workspace(const assembly *a, workspace *w, error *err)
-{
-    const fe_cell *type = a->space->mesh->type;
-    size_t in = 1, test = 1, block = 1, out = 1, jac = 1, room = 1, scratch = 1,
-           n = (size_t)assemble_padded(type->n_node);
-    size_t q = 1, basis[3] = {0}, dim = (size_t)type->dim;
-    int laplace[3] = {0}, metric = 0;
-
-    for (int i = 0; i < a->n_class; i++) {
-        const assembly_class *c = &a->class_[i];
-        size_t nq = (size_t)c->n_q;
-
-        q = max_size(q, nq);
-        in = max_size(in, c->in_size * nq);
-        test = max_size(test, c->test_size * nq);
-        block = max_size(block, c->block_size * nq);
-        out = max_size(out, c->out_size * nq);
-        jac = max_size(jac, c->jac_size * nq);
-        room = max_size(room, c->room_size * nq);
-        scratch = max_size(scratch, c->scratch_size);
-        metric |= c->any_metric;
-        for (int order = 0; order < 3; order++) {
-            basis[order] = max_size(basis[order], (size_t)assemble_padded(c->n_basis[order]));
-            n = max_size(n, basis[order]);
-            laplace[order] |= c->laplace_used[order];
-        }
-    }
-    ARENA_NEW(&w->memory, w->x_node, n * dim, err);
-    ARENA_NEW(&w->memory, w->w, q, err);
-    ARENA_NEW(&w->memory, w->x, q * dim, err);
-    ARENA_NEW(&w->memory, w->normal, q * dim, err);
-    ARENA_NEW(&w->memory, w->h, q, err);
-    ARENA_NEW(&w->memory, w->arm, q * dim, err);
-    ARENA_NEW(&w->memory, w->density, q, err);
-    ARENA_NEW(&w->memory, w->gap, q, err);
-    for (int i = 0; i < 2; i++)
-        ARENA_NEW(&w->memory, w->size[i], q, err);
-    ARENA_NEW(&w->memory, w->other_density, q, err);
-    ARENA_NEW(&w->memory, w->id, q * PF_LANES, err);
-    for (int order = 0; order < 3; order++)
-        for (size_t k = 0; k <= dim; k++)
-            ARENA_NEW(&w->memory, w->basis[order][k], (basis[order] + 1) * q, err);
-    for (int order = 0; order < 3; order++)
-        if (laplace[order])
-            ARENA_NEW(&w->memory, w->basis[order][LAPLACE_ROW], (basis[order] + 1) * q, err);
-    if (metric)
-        ARENA_NEW(&w->memory, w->metric, q * dim * dim, err);
-    ARENA_NEW(&w->memory, w->dof, n * dim, err);
-    ARENA_NEW(&w->memory, w->in, in, err);
-    ARENA_NEW(&w->memory, w->test, test, err);
-    ARENA_NEW(&w->memory, w->unknown, test, err);
-    ARENA_NEW(&w->memory, w->still, q * 3, err);
-    ARENA_NEW(&w->memory, w->power, a->n_use + 1, err);
-    ARENA_NEW(&w->memory, w->block, block, err);
-    ARENA_NEW(&w->memory, w->out, out, err);
-    ARENA_NEW(&w->memory, w->jac, jac, err);
-    ARENA_NEW(&w->memory, w->room, room, err);
-    ARENA_NEW(&w->memory, w->g, TEST_ROWS * ASSEMBLE_PAD * q, err);
-    ARENA_NEW(&w->memory, w->vec, n * dim, err);
-    ARENA_NEW(&w->memory, w->mat, n * n * dim * dim, err);
-    w->scratch = arena_alloc(&w->memory, scratch, 1);
-    return w->scratch ? 0 : error_memory(err, "scratch", (double)scratch);
+    return place_items(a, c, spec, err);
 }

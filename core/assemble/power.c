@@ -7,7 +7,7 @@
  *
  * Of a term with rates d/dt the part without them is told apart, and the energy that the other part is the rate of.
  */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,208 +1,218 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The loop over batches, and adding element vectors and matrices to the global ones.  Slabs of
- * cells go to threads; cells that touch two slabs come last, on one thread.  No atomics: the
- * order of additions depends on nothing but the number of threads. */
-#include "assemble/assemble.h"
+ * Adding element vectors and matrices to the global ones.
+ *
+ * A row of the element matrices of a batch has a vector of 8 lanes for every column.  Blocks of 8 x 8 are
+ * transposed, so that each item has its row in one piece; what lies side by side in the matrix, too, is then added
+ * as a run. */
+#include "assemble/batch.h"
 
 #include <string.h>
 
-static void scatter_vector(const assembly *a, const assembly_class *c, int64_t batch, int field, const workspace *w,
-                           double *residual)
+enum { MOST_SEGMENTS = ELEMENT_MOST_ENTRIES };
+
+typedef double v8_anywhere __attribute__((vector_size(64), aligned(8)));
+typedef double v4_anywhere __attribute__((vector_size(32), aligned(8)));
+typedef double v2_anywhere __attribute__((vector_size(16), aligned(8)));
+
+static int is_of_body(const assembly *a, const assembly_class *c, int entry)
 {
-    const space *s = a->space;
-    int n = c->n_basis[s->field[field].order];
-
-    for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++)
-        for (int i = 0, l = (int)(item - c->batch[batch]); i < n; i++) {
-            int32_t carrier = space_carrier(s, c->group[item], assemble_item_local(c, s, field, i));
-
-            for (int k = 0; carrier >= 0 && k < s->field[field].n_comp; k++)
-                residual[s->first[field][carrier] + k] += w->vec[k * n + i][l];
-        }
+    return a->space->field[c->layout.field[entry]].support == PF_ON_PARTICLE;
 }
 
-/* Free columns of a field on a group: position within the columns of their carrier, or -1. */
-static void columns(const assembly_class *c, const space *s, const uint8_t *idle, int64_t group, int field, int n,
-                    int *local, int (*relative)[3])
+void scatter_vector(const assembly *a, const assembly_class *c, int64_t batch, int slab, const workspace *w,
+                    double *residual)
 {
-    for (int j = 0; j < n; j++) {
-        int32_t carrier;
-
-        local[j] = assemble_item_local(c, s, field, j);
-        carrier = space_carrier(s, group, local[j]);
-        for (int b = 0; b < s->field[field].n_comp; b++) {
-            int32_t f = carrier < 0 ? -1 : s->free_of[s->first[field][carrier] + b];
-
-            relative[j][b] = f < 0 || idle[s->first[field][carrier] + b] ? -1 : (int)(f - s->node_free[carrier]);
-        }
-    }
-}
-
-static void scatter_matrix(const assembly *a, const assembly_class *c, int64_t batch, int row_field, int col_field,
-                           const workspace *w, double *value)
-{
-    const space *s = a->space;
-    int n_row = c->n_basis[s->field[row_field].order];
-    int n_col = c->n_basis[s->field[col_field].order], row_comp = s->field[row_field].n_comp;
-    int col_comp = s->field[col_field].n_comp, pr = assemble_padded(n_row), pc = assemble_padded(n_col);
-
     for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++) {
-        int l = (int)(item - c->batch[batch]), local[2 * FE_MAX_NODES], relative[2 * FE_MAX_NODES][3];
-        int64_t group = c->group[item];
-        int size = space_group_size(s, group);
+        const int32_t *restrict dof = c->dof + item * c->layout.n;
+        const body_share *share = shares_at(a, c, slab, item);
+        int l = (int)(item - c->batch[batch]);
 
-        columns(c, s, a->idle, group, col_field, n_col, local, relative);
-        for (int i = 0; i < n_row; i++) {
-            int li = assemble_item_local(c, s, row_field, i);
-            int32_t carrier = space_carrier(s, group, li), dof = carrier < 0 ? 0 : s->first[row_field][carrier];
-            const int32_t *pair = space_pair(s, group) + li * size;
-
-            for (int ra = 0; carrier >= 0 && ra < row_comp; ra++) {
-                int32_t row = s->free_of[dof + ra];
-                double *to;
-
-                if (row < 0 || a->idle[dof + ra])
-                    continue;
-                to = value + s->row[row];
-                for (int b = 0; b < col_comp; b++) {
-                    const v8 *k = w->mat + (ra * col_comp + b) * pr * pc + i * pc;
-
-                    for (int j = 0; j < n_col; j++)
-                        if (relative[j][b] >= 0)
-                            to[pair[local[j]] + relative[j][b]] += k[j][l];
-                }
-            }
-        }
+        for (int e = 0; e < c->layout.n; e++)
+            if (dof[e] >= 0)
+                *(share && is_of_body(a, c, e) ? &a->share_sum[share->at + e] : &residual[dof[e]]) += w->vec[e][l];
     }
 }
 
-/* Fields whose test functions the class uses. */
-static int row_fields(const assembly_class *c, int *list)
+/* Columns of the element matrix that are columns of one carrier in the matrix, one beside the other. */
+typedef struct segment {
+    int from, n, carrier, column; /* column: the first, within those of the carrier */
+} segment;
+
+/* The same where these are: entries from `from` on belong to those from `to` on. */
+typedef struct run {
+    int from, n, to;
+} run;
+
+/* Free columns of the fields on an item. */
+static int find_segments(const assembly *a, const element_layout *p, const int32_t *dof, uint32_t fields,
+                         segment *list)
 {
     int n = 0;
 
-    for (int t = 0; t < c->n_test; t++) {
-        int seen = 0;
+    for (int e = 0; e < p->n; e++) {
+        int column = dof[e] < 0 || !(fields >> p->field[e] & 1) ? -1 : a->column_of[dof[e]];
+        segment *s = n ? &list[n - 1] : NULL;
 
-        for (int i = 0; i < n; i++)
-            seen |= list[i] == c->test[t].field;
-        if (!seen)
-            list[n++] = c->test[t].field;
+        if (column < 0)
+            continue;
+        if (s && s->carrier == p->carrier[e] && s->from + s->n == e && s->column + s->n == column)
+            s->n++;
+        else
+            list[n++] = (segment){e, 1, p->carrier[e], column};
     }
     return n;
 }
 
-static int run_batch(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
-                     int diagnose, workspace *w, double *residual, double *value)
+/* Segments in the rows of one carrier, as few runs as there are; pair: where the columns of each carrier start. */
+static int find_runs(const segment *s, int n, const int32_t *pair, run *list)
 {
-    int field[ASSEMBLE_MAX_TESTS], n = row_fields(c, field), on = !c->off;
+    run *last = list - 1;
 
-    for (int64_t i = c->batch[batch]; i < c->batch[batch + 1]; i++)
-        on |= c->off && !c->off[c->cell[i]];
-    if (!on)
-        return 0;
-
-    geometry_points(a, c, batch, w);
-    inputs_values(a, c, s, batch, w);
-    if (evaluate_terms(a, c, s, batch, value != NULL, diagnose, w)) {
-        w->failed_batch = batch;
-        return 1;
-    }
     for (int i = 0; i < n; i++) {
-        element_vector(a, c, field[i], w);
-        scatter_vector(a, c, batch, field[i], w, residual);
-        for (int j = 0; value && j < a->space->n_field; j++)
-            if (element_matrix(a, c, field[i], j, w))
-                scatter_matrix(a, c, batch, field[i], j, w, value);
+        int to = pair[s[i].carrier] + s[i].column;
+
+        if (i && last->from + last->n == s[i].from && last->to + last->n == to)
+            last->n += s[i].n;
+        else
+            *++last = (run){s[i].from, s[i].n, to};
     }
-    return 0;
+    return (int)(last - list) + 1;
 }
 
-static int report(const workspace *w, const assembly_class *c, error *err)
+static void transpose(const v8 *restrict in, v8 *restrict out, int stride)
 {
-    int code = error_set(err, w->report.status > 0 ? ERR_CONVERGE : ERR_PLUGIN, "%s (cells from %d)",
-                         w->report.text, c->cell[c->batch[w->failed_batch]]);
+    typedef long long i8 __attribute__((vector_size(64)));
+    const i8 low = {0, 8, 2, 10, 4, 12, 6, 14}, high = {1, 9, 3, 11, 5, 13, 7, 15};
+    const i8 low2 = {0, 1, 8, 9, 4, 5, 12, 13}, high2 = {2, 3, 10, 11, 6, 7, 14, 15};
+    const i8 low4 = {0, 1, 2, 3, 8, 9, 10, 11}, high4 = {4, 5, 6, 7, 12, 13, 14, 15};
+    v8 a[8], b[8];
 
-    err->retry = w->report.status > 0;
-    return code;
+    for (int k = 0; k < 8; k += 2) {
+        a[k] = __builtin_shuffle(in[k], in[k + 1], low);
+        a[k + 1] = __builtin_shuffle(in[k], in[k + 1], high);
+    }
+    for (int k = 0; k < 8; k += 4)
+        for (int j = 0; j < 2; j++) {
+            b[k + j] = __builtin_shuffle(a[k + j], a[k + j + 2], low2);
+            b[k + j + 2] = __builtin_shuffle(a[k + j], a[k + j + 2], high2);
+        }
+    for (int j = 0; j < 4; j++) {
+        out[j * stride] = __builtin_shuffle(b[j], b[j + 4], low4);
+        out[(j + 4) * stride] = __builtin_shuffle(b[j], b[j + 4], high4);
+    }
 }
 
-/* Unknowns that are off now: their equation is x = 0. */
-static void close_idle(const space *s, const uint8_t *idle, double *residual, double *value)
+static inline void add_run(double *restrict to, const double *restrict from, int n)
 {
-    for (int64_t d = 0; d < s->n_dof; d++) {
-        int32_t r = s->free_of[d];
+    for (; n >= 8; n -= 8, to += 8, from += 8)
+        *(v8_anywhere *)to += *(const v8_anywhere *)from;
+    if (n & 4) {
+        *(v4_anywhere *)to += *(const v4_anywhere *)from;
+        to += 4, from += 4;
+    }
+    if (n & 2) {
+        *(v2_anywhere *)to += *(const v2_anywhere *)from;
+        to += 2, from += 2;
+    }
+    if (n & 1)
+        *to += *from;
+}
 
-        if (!idle[d])
+/* Where the rows of an item go.  Cells of a regular mesh have the same runs, which are then those of the first. */
+typedef struct lane {
+    const body_share *share;
+    int joins; /* of the same group as the lane before, as are pieces of a surface in a cell: added to it */
+    const int32_t *pair; /* of its group */
+    int size, n_segment, n_run;
+    const run *runs;
+    segment segment[MOST_SEGMENTS];
+    run own[MOST_SEGMENTS];
+} lane;
+
+static void start_lane(const assembly *a, const assembly_class *c, int slab, int64_t item, lane *l)
+{
+    l->share = shares_at(a, c, slab, item);
+    l->pair = space_pair(a->space, c->group[item]);
+    l->size = space_group_size(a->space, c->group[item]);
+}
+
+/* Runs in the rows of a carrier. */
+static void take_runs(lane *lanes, int n_lane, int carrier)
+{
+    for (int l = 0; l < n_lane; l++) {
+        lane *k = &lanes[l];
+        const lane *first = &lanes[0];
+
+        if (l && k->n_segment == first->n_segment && k->size == first->size &&
+            !memcmp(k->pair + carrier * k->size, first->pair + carrier * k->size,
+                    (size_t)k->size * sizeof *k->pair) &&
+            !memcmp(k->segment, first->segment, (size_t)k->n_segment * sizeof *k->segment)) {
+            k->runs = first->runs;
+            k->n_run = first->n_run;
+        } else {
+            k->n_run = find_runs(k->segment, k->n_segment, k->pair + carrier * k->size, k->own);
+            k->runs = k->own;
+        }
+    }
+}
+
+/* A row of all items; those that join another are added to that one's. */
+static void take_row(const lane *lanes, int n_lane, const v8 *from, int n_block, v8 *row)
+{
+    for (int k = 0; k < n_block; k++)
+        transpose(from + 8 * k, row + k, n_block);
+    for (int l = n_lane - 1; l > 0; l--)
+        for (int k = 0; lanes[l].joins && k < n_block; k++)
+            row[(l - 1) * n_block + k] += row[l * n_block + k];
+}
+
+/* The rows of field f, all carriers. */
+static void scatter_rows(const assembly *a, const assembly_class *c, int64_t batch, int f, const workspace *w,
+                         lane *lanes, double *value)
+{
+    const space *s = a->space;
+    const element_layout *p = &c->layout;
+    int n_lane = (int)(c->batch[batch + 1] - c->batch[batch]), carrier = -1, width = p->width;
+    int of_body = s->field[f].support == PF_ON_PARTICLE;
+    const int32_t *dof = c->dof + c->batch[batch] * p->n;
+
+    for (int l = 0; l < n_lane; l++)
+        lanes[l].n_segment = find_segments(a, p, dof + l * p->n, p->coupled[f], lanes[l].segment);
+    for (int r = 0; r < p->n; r++) {
+        v8 row[PF_LANES * ELEMENT_MOST_ENTRIES / 8];
+
+        if (p->field[r] != f)
             continue;
-        residual[d] = 0;
-        for (int64_t k = r >= 0 && value ? s->row[r] : 0; k < (r >= 0 && value ? s->row[r + 1] : 0); k++)
-            if (s->col[k] == r)
-                value[k] = 1;
+        take_row(lanes, n_lane, w->mat + r * width, width / 8, row);
+        if (p->carrier[r] != carrier)
+            take_runs(lanes, n_lane, p->carrier[r]);
+        carrier = p->carrier[r];
+        for (int l = 0; l < n_lane; l++) {
+            int32_t d = dof[l * p->n + r], at = d < 0 ? -1 : a->row_of[d];
+            const double *from = (const double *)row + l * width;
+            double *to = value;
+
+            if (at < 0 || lanes[l].joins)
+                continue;
+            if (lanes[l].share && of_body)
+                to = a->share_sum + lanes[l].share->at + p->n - lanes[l].share->first_value;
+            for (const run *u = lanes[l].runs; u < lanes[l].runs + lanes[l].n_run; u++)
+                add_run(to + s->row[at] + u->to, from + u->from, u->n);
+        }
     }
 }
 
-int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err)
+void scatter_matrix(const assembly *a, const assembly_class *c, int64_t batch, int slab, const workspace *w,
+                    double *value)
 {
-    TRY(items_take(a, s->bodies, err));
-    memset(residual, 0, (size_t)a->space->n_dof * sizeof *residual);
-    if (value)
-        memset(value, 0, (size_t)a->space->row[a->space->n_free] * sizeof *value);
-    if (s->power)
-        power_clear(a);
-    for (int k = 0; k < a->n_class; k++) {
-        assembly_class *c = &a->class_[k];
+    lane lanes[PF_LANES];
 
-        if (!evaluate_any(a, c, s))
-            continue;
-        TRY(inputs_functions(a, c, &a->work[0], s->t, err));
-        TRY(history_update(a, c, &a->work[0], s->frame, err));
-        for (int i = 0; i < a->n_thread; i++)
-            a->work[i].failed_batch = -1;
-#pragma omp parallel for num_threads(c->n_slab) schedule(static, 1)
-        for (int slab = 0; slab < c->n_slab; slab++)
-            for (int64_t b = c->slab[slab]; b < c->slab[slab + 1]; b++)
-                if (run_batch(a, c, s, b, diagnose, &a->work[slab], residual, value))
-                    break;
-        for (int slab = 0; slab < c->n_slab; slab++)
-            if (a->work[slab].failed_batch >= 0)
-                return report(&a->work[slab], c, err);
-        for (int64_t b = c->slab[c->n_slab]; b < c->n_batch; b++)
-            if (run_batch(a, c, s, b, diagnose, &a->work[0], residual, value))
-                return report(&a->work[0], c, err);
+    for (int64_t item = c->batch[batch]; item < c->batch[batch + 1]; item++) {
+        start_lane(a, c, slab, item, &lanes[item - c->batch[batch]]);
+        lanes[item - c->batch[batch]].joins = item > c->batch[batch] && c->group[item] == c->group[item - 1];
     }
-    close_idle(a->space, a->idle, residual, value);
-    if (s->power)
-        power_sum(a, s->power);
-    return 0;
-}
-
-int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int n_spec, int n_thread, error *err)
-{
-    memset(a, 0, sizeof *a);
-    a->space = s;
-    a->n_thread = n_thread < 1 ? 1 : n_thread;
-    ARENA_NEW(&a->memory, a->class_, n_spec > 0 ? n_spec : 1, err);
-    ARENA_NEW(&a->memory, a->work, a->n_thread, err);
-    ARENA_NEW(&a->memory, a->none_idle, s->n_dof + 1, err);
-    ARENA_NEW(&a->memory, a->use, (int64_t)n_spec * ASSEMBLE_MAX_USES + 1, err);
-    a->idle = a->none_idle;
-    for (a->n_class = 0; a->n_class < n_spec; a->n_class++)
-        TRY(plan_create(a, &a->class_[a->n_class], &spec[a->n_class], err));
-    for (int i = 0; i < a->n_thread; i++)
-        TRY(plan_workspace(a, &a->work[i], err));
-    return 0;
-}
-
-void assembly_destroy(assembly *a)
-{
-    for (int i = 0; a->work && i < a->n_thread; i++)
-        arena_free(&a->work[i].memory);
-    for (int i = 0; i < a->n_class; i++) {
-        arena_free(&a->class_[i].item_memory);
-        arena_free(&a->class_[i].frame_memory);
-    }
-    arena_free(&a->memory);
-    memset(a, 0, sizeof *a);
+    for (int f = 0; f < a->space->n_field; f++)
+        if (c->layout.coupled[f])
+            scatter_rows(a, c, batch, f, w, lanes, value);
 }

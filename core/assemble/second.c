@@ -5,7 +5,7 @@
  *     lap n = (G G^T) : d^2 n/dxi^2 - (G (G G^T) : d^2 x/dxi^2) . dn/dxi,     G = dxi/dx,
  *
  * and the metric G^T R G with R such that it does not depend on the numbers of the vertices. */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 
 laplacian laplacian_of(int dim, int n_node, const v8 *x_node, const double (*d2n)[FE_SECOND], v8 inv[3][3])
 {

@@ -145,6 +145,7 @@ void bodies_destroy(bodies *b)
     free(b->envelope.next_tie);
     if (b->has_walls)
         wall_destroy(&b->walls);
+    box_grid_destroy(&b->paths.near);
     arena_free(&b->envelope.memory);
     cut_rule_destroy(&b->cut);
     arena_free(&b->memory);

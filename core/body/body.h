@@ -15,6 +15,7 @@
 #include "assemble/assemble.h"
 #include "base/warning.h"
 #include "describe/describe.h"
+#include "mesh/box_grid.h"
 #include "mesh/cell_grid.h"
 #include "mesh/wall.h"
 #include "space/conditions.h"
@@ -90,12 +91,12 @@ typedef struct envelope {
     arena memory;
 } envelope;
 
-enum { PATHS_MAX_LEVELS = 3 };
+enum { PATHS_MAX_LEVELS = 3, PATHS_REACH = 8 /* cells */ };
 
 /* A body's image now and at the levels of history (paths.c). */
 typedef struct moving_body {
     solid here;
-    int moves;
+    int moves, round;
     double way[PATHS_MAX_LEVELS][3];     /* of its centre since then */
     double then[PATHS_MAX_LEVELS][3][3]; /* its axes then            */
 } moving_body;
@@ -107,6 +108,8 @@ typedef struct body_paths {
     const double *u[PATHS_MAX_LEVELS]; /* unknowns of the levels                     */
     int n;
     moving_body *body; /* [n_body * n_image] */
+    box_grid near;     /* of them: which may matter at a point; no boxes: unknown */
+    int32_t *all;      /* their numbers */
     uint8_t *cell;     /* [n_cell] near one that moves */
     uint8_t *seen;     /* [n_carrier] room             */
 } body_paths;
@@ -269,6 +272,14 @@ int paths_create(bodies *b, error *err);
 /* The bodies' images at these levels, and the cells near those that move; 0: there are none. */
 int paths_take(bodies *b, const placement *now, int levels, const double *c, const double *const *u,
                const pose *const *then);
+/* path_bodies.c.  Where the path through x was at each level: x - way; 0: it rests. */
+int paths_find(const body_paths *t, const double *x, double reach, double way[PATHS_MAX_LEVELS][3]);
+/* How far the point of a body that is at x now has come since level l. */
+void paths_travelled(const moving_body *b, int l, const double *x, double *d);
+/* The body that moves in which x is, or NULL. */
+const moving_body *paths_below(const body_paths *t, const double *x);
+/* Lists which bodies may matter where, for a reach of at most this. */
+void paths_list(body_paths *t, int dim, double reach);
 int paths_at(void *bodies_, int64_t cell, const double *x, double *w, double *history); /* see moving_frame */
 void placements_destroy(bodies *b);
 

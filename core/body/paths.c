@@ -6,75 +6,16 @@
  *     du/dt = c_0 u + sum_k c_k u^k(x - s d_k) - w . grad u,      w = -sum_k c_k s d_k,
  *
  * d_k(x): how far the point of the body that is at x now has come since then; s(x) = 1 at its surface, 0 at a
- * distance of REACH cells and at other bodies; c_k: coefficients of the time scheme, c_0 + sum_k c_k = 0.  Any path
- * through x is right; this one does not leave the fluid, and what a body carries with it is steady along it. */
+ * distance of PATHS_REACH cells and at other bodies; c_k: coefficients of the time scheme, c_0 + sum_k c_k = 0. Any
+ * path through x is right; this one does not leave the fluid, and what a body carries with it is steady along it.
+ */
 #include "body/body.h"
 
 #include <math.h>
 #include <string.h>
 
-#define REACH 8    /* cells */
 #define RESTS 0.01 /* cells a step or two: less is no motion */
 #define OUT   0.02 /* cells: far enough from a surface to be in a cell with fluid */
-
-static double away(const moving_body *b, const double *x)
-{
-    double d = 0;
-
-    for (int k = 0; k < b->here.shape->dim; k++)
-        d += (x[k] - b->here.at.x[k]) * (x[k] - b->here.at.x[k]);
-    return sqrt(d) - b->here.shape->radius;
-}
-
-/* Distance from a body: the larger of two lower bounds, to first order (level over its slope) and from its ball; 0
- * inside. */
-static double distance(const moving_body *b, const double *x)
-{
-    double g[3] = {0}, size = 0, level = solid_level(&b->here, x);
-
-    if (level <= 0)
-        return 0;
-    solid_slope(&b->here, x, g);
-    for (int k = 0; k < b->here.shape->dim; k++)
-        size += g[k] * g[k];
-    return fmax(level / sqrt(size), away(b, x));
-}
-
-static double smooth(double s)
-{
-    return s >= 1 ? 1 : s * s * (3 - 2 * s);
-}
-
-/* Share of a body in the path through x: 1 at its surface, 0 from `reach` on; less where another body is less than
- * twice as far, and none at that one. */
-static double share(const body_paths *p, const moving_body *b, const double *x, double reach)
-{
-    double d = away(b, x) < reach ? distance(b, x) : reach, s = 1 - smooth(d / reach);
-
-    for (const moving_body *o = p->body; s > 0 && o < p->body + p->n; o++)
-        if (o != b && away(o, x) < 2 * d) {
-            double e = distance(o, x);
-
-            s *= d > 0 ? smooth(e / (2 * d)) : 1;
-        }
-    return s;
-}
-
-/* How far the point of a body that is at x now has come since level l. */
-static void travelled(const moving_body *b, int l, const double *x, double *d)
-{
-    int dim = b->here.shape->dim;
-    double own[3] = {0};
-
-    for (int i = 0; i < dim; i++)
-        for (int k = 0; k < dim; k++)
-            own[i] += b->here.axes[k][i] * (x[k] - b->here.at.x[k]);
-    for (int k = 0; k < dim; k++) {
-        d[k] = b->way[l][k] + x[k] - b->here.at.x[k];
-        for (int i = 0; i < dim; i++)
-            d[k] -= b->then[l][k][i] * own[i];
-    }
-}
 
 /* Cell at x, and where in it; -1: none. */
 static located locate(const bodies *b, const double *x)
@@ -110,25 +51,6 @@ static int find_surface(const moving_body *b, double h, double *x)
         }
     }
     return 0;
-}
-
-/* Where the path through x was at each level: x - way; 0: it rests. */
-static int find_path(const body_paths *t, const double *x, double reach, double way[PATHS_MAX_LEVELS][3])
-{
-    int any = 0;
-
-    memset(way, 0, PATHS_MAX_LEVELS * sizeof *way);
-    for (const moving_body *b = t->body; b < t->body + t->n; b++) {
-        double s = b->moves ? share(t, b, x, reach) : 0, d[3];
-
-        for (int l = 0; s > 0 && l < t->levels; l++) {
-            travelled(b, l, x, d);
-            for (int k = 0; k < b->here.shape->dim; k++)
-                way[l][k] += s * d[k];
-        }
-        any |= s > 0;
-    }
-    return any;
 }
 
 /* Cells where a path through x was.  One that leaves the mesh has to be shortened: returns by which factor, or
@@ -196,7 +118,7 @@ static void continue_fluid(const bodies *p, const moving_body *b, const double *
             found = find_surface(b, h, from);
         if (!found)
             return;
-        travelled(b, l, from, d);
+        paths_travelled(b, l, from, d);
         for (int k = 0; k < p->space->mesh->dim; k++) {
             off[l][k] = at[k];
             at[k] = from[k] - part * d[k];
@@ -231,15 +153,6 @@ static void history_of(const bodies *p, int f, const located *foot, double off[P
     }
 }
 
-/* The body that moves in which x is, or NULL. */
-static const moving_body *is_below(const body_paths *t, const double *x)
-{
-    for (const moving_body *b = t->body; b < t->body + t->n; b++)
-        if (b->moves && away(b, x) < 0 && distance(b, x) == 0)
-            return b;
-    return NULL;
-}
-
 int paths_at(void *bodies_, int64_t cell, const double *x, double *w, double *history)
 {
     const bodies *p = bodies_;
@@ -248,12 +161,12 @@ int paths_at(void *bodies_, int64_t cell, const double *x, double *w, double *hi
     const moving_body *below;
     located foot[PATHS_MAX_LEVELS];
 
-    if (!t->cell[cell] || !find_path(t, x, REACH * h, way))
+    if (!t->cell[cell] || !paths_find(t, x, PATHS_REACH * h, way))
         return 0;
     part = locate_path(p, x, way, foot);
     if (part == 0)
         return 0;
-    below = is_below(t, x);
+    below = paths_below(t, x);
     if (below)
         continue_fluid(p, below, x, h, part, way, foot, off);
     for (int k = 0; k < p->space->mesh->dim; k++) {
@@ -310,6 +223,7 @@ static void place(bodies *p, const placement *now, int levels, const pose *const
                 for (int i = 0; i < p->space->mesh->dim; i++)
                     b->way[l][i] = b->here.at.way[i] - then[l][k].way[i];
             }
+            b->round = shape_is_round(b->here.shape);
             for (int i = 0; i < 3; i++)
                 b->here.at.x[i] += p->image[j][i];
         }
@@ -320,10 +234,15 @@ int paths_create(bodies *b, error *err)
     ARENA_NEW(&b->memory, b->paths.body, b->n * b->n_image, err);
     ARENA_NEW(&b->memory, b->paths.cell, b->space->mesh->n_cell, err);
     ARENA_NEW(&b->memory, b->paths.seen, b->space->n_carrier, err);
+    ARENA_NEW(&b->memory, b->paths.all, b->n * b->n_image + 1, err);
+    for (int i = 0; i < b->n * b->n_image; i++)
+        b->paths.all[i] = i;
     b->paths.frame.fields = find_fields(b);
     b->paths.frame.cell = b->paths.cell;
     b->paths.frame.ctx = b;
     b->paths.frame.at = paths_at;
+    for (int k = 0; k < b->n; k++) /* Lua has one thread */
+        b->paths.frame.one_thread |= b->spec[k].shape.kind == SHAPE_DISTANCE;
     return 0;
 }
 
@@ -331,6 +250,7 @@ int paths_take(bodies *b, const placement *now, int levels, const double *c, con
                const pose *const *then)
 {
     body_paths *t = &b->paths;
+    double h = 0;
     int any = 0;
 
     place(b, now, levels, then);
@@ -338,13 +258,16 @@ int paths_take(bodies *b, const placement *now, int levels, const double *c, con
     for (int i = 0; i < t->n; i++) {
         const solid *q = &t->body[i].here;
         int64_t n = t->body[i].moves
-                        ? cell_grid_ball(b->grid, q->at.x, q->shape->radius + REACH * b->h_mean, b->near_cell)
+                        ? cell_grid_ball(b->grid, q->at.x, q->shape->radius + PATHS_REACH * b->h_mean, b->near_cell)
                         : 0;
 
-        for (int64_t k = 0; k < n; k++)
+        for (int64_t k = 0; k < n; k++) {
             t->cell[b->near_cell[k]] = 1;
+            h = fmax(h, b->space->mesh->h[b->near_cell[k]]);
+        }
         any |= n > 0;
     }
+    paths_list(t, b->space->mesh->dim, PATHS_REACH * h);
     t->levels = levels;
     for (int l = 0; l < levels; l++) {
         t->c[l] = c[l];

@@ -116,10 +116,11 @@ int fe_n_basis(const fe_cell *c, int order)
     return order == 2 ? c->n_node : order == 1 ? c->n_vertex : 1;
 }
 
-/* 1D Lagrange polynomials on {-1, 0, 1} or {-1, 1} and their derivatives. */
-static void line_basis(int order, double s, double *l, double *dl)
+void fe_line_basis(int order, double s, double *l, double *dl)
 {
-    if (order == 2) {
+    if (order == 0) {
+        l[0] = 1, dl[0] = 0;
+    } else if (order == 2) {
         l[0] = 0.5 * s * (s - 1), dl[0] = s - 0.5;
         l[1] = 1 - s * s, dl[1] = -2 * s;
         l[2] = 0.5 * s * (s + 1), dl[2] = s + 0.5;
@@ -133,7 +134,7 @@ static void line_basis(int order, double s, double *l, double *dl)
 static void line_bases(int dim, int order, const double *xi, double (*l)[3], double (*dl)[3])
 {
     for (int k = 0; k < dim; k++)
-        line_basis(order, xi[k], l[k], dl[k]);
+        fe_line_basis(order, xi[k], l[k], dl[k]);
     if (dim == 2)
         l[2][0] = 1;
 }

@@ -36,6 +36,11 @@ int fe_n_basis(const fe_cell *c, int order);
 /* Values n[i] and reference gradients dn[i][dim] of the basis of the order at xi. */
 void fe_basis(const fe_cell *c, int order, const double *xi, double *n, double (*dn)[3]);
 
+/* On quads and hexes this is a product of those on the line [-1, 1]: a constant, or Lagrange polynomials on {-1, 1}
+ * or
+ * {-1, 0, 1}; and their derivatives. */
+void fe_line_basis(int order, double s, double *l, double *dl);
+
 /* Second reference derivatives d2n[i] of the same basis: xx, yy, zz, xy, yz, zx; zero where there is no z. */
 enum { FE_SECOND = 6 };
 void fe_basis_second(const fe_cell *c, int order, const double *xi, double (*d2n)[FE_SECOND]);

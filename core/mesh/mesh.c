@@ -9,6 +9,7 @@
 
 #include <plugflow/mesh.h>
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,10 +49,51 @@ double mesh_map(const mesh *m, int64_t cell, const double *n, const double (*dn)
     return dense_determinant((const double(*)[3])j);
 }
 
+/* Whether all nodes lie where those of a box do, as exactly as their coordinates can say. */
+static int is_box(const mesh *m, int64_t cell)
+{
+    const int32_t *node = m->cell + cell * m->type->n_node;
+
+    for (int k = 0; k < m->dim; k++) {
+        double low = m->x[(int64_t)node[0] * m->dim + k];
+        double high = m->x[(int64_t)node[m->type->n_node - 1] * m->dim + k];
+        double bound = 4 * DBL_EPSILON * fmax(fabs(low), fabs(high));
+
+        for (int i = 0; i < m->type->n_node; i++) {
+            double at = 0.5 * ((1 - m->type->x[i][k]) * low + (1 + m->type->x[i][k]) * high);
+
+            if (!(fabs(m->x[(int64_t)node[i] * m->dim + k] - at) <= bound))
+                return 0;
+        }
+    }
+    return 1;
+}
+
+/* mesh_place in a box. */
+static double place_in_box(const mesh *m, int64_t cell, const double *xi, double x[3], double j[3][3])
+{
+    const int32_t *node = m->cell + cell * m->type->n_node;
+    double det = 1;
+
+    for (int k = 0; k < 3; k++) {
+        double low = k < m->dim ? m->x[(int64_t)node[0] * m->dim + k] : 0;
+        double high = k < m->dim ? m->x[(int64_t)node[m->type->n_node - 1] * m->dim + k] : 0;
+
+        for (int b = 0; b < 3; b++)
+            j[k][b] = 0;
+        x[k] = k < m->dim ? 0.5 * (low + high) + 0.5 * (high - low) * xi[k] : 0;
+        j[k][k] = k < m->dim ? 0.5 * (high - low) : 1;
+        det *= j[k][k];
+    }
+    return det;
+}
+
 double mesh_place(const mesh *m, int64_t cell, const double *xi, double x[3], double j[3][3])
 {
     double n[FE_MAX_NODES], dn[FE_MAX_NODES][3];
 
+    if (m->is_box && m->is_box[cell])
+        return place_in_box(m, cell, xi, x, j);
     fe_basis(m->type, 2, xi, n, dn);
     return mesh_map(m, cell, n, (const double(*)[3])dn, x, j);
 }
@@ -66,6 +108,7 @@ int mesh_measure(mesh *m, error *err)
     for (int q = 0; q < rule.n; q++)
         fe_basis(c, 2, rule.x[q], n[q], dn[q]);
     ARENA_NEW(&m->memory, m->h, m->n_cell, err);
+    ARENA_NEW(&m->memory, m->is_box, m->n_cell, err);
     for (int64_t e = 0; e < m->n_cell; e++) {
         double volume = 0;
 
@@ -80,6 +123,7 @@ int mesh_measure(mesh *m, error *err)
             volume += rule.w[q] * det;
         }
         m->h[e] = pow(volume, 1.0 / m->dim);
+        m->is_box[e] = (uint8_t)(!c->simplex && is_box(m, e));
     }
     return 0;
 }

@@ -22,9 +22,11 @@ typedef struct mesh {
     int dim;
     const fe_cell *type;
     int64_t n_node, n_cell, n_facet;
-    double *x;         /* coordinates, [n_node][dim]                       */
-    int32_t *cell;     /* nodes of cells, [n_cell][type->n_node]           */
-    double *h;         /* size of cells, volume^(1/dim), [n_cell]          */
+    double *x;       /* coordinates, [n_node][dim]                       */
+    int32_t *cell;   /* nodes of cells, [n_cell][type->n_node]           */
+    double *h;       /* size of cells, volume^(1/dim), [n_cell]          */
+    uint8_t *is_box; /* [n_cell] 1: a quad or hex with straight sides along the axes and evenly spaced nodes; NULL:
+                        not measured yet */
     mesh_facet *facet; /* boundary facets, sorted by local number          */
     int n_name;
     char *name[MESH_MAX_NAMES];
@@ -53,7 +55,7 @@ struct pf_mesh_data;
 /* Takes over (copies) what a mesh reader returned. */
 int mesh_create_from_data(const struct pf_mesh_data *data, const char *source, mesh *m, error *err);
 
-/* Sizes, inverted cells (an error that names the cell and where it is). */
+/* Sizes, boxes, inverted cells (an error that names the cell and where it is). */
 int mesh_measure(mesh *m, error *err);
 
 /* Identifies the nodes of boundaries a and b, which must match under a translation. */

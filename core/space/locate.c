@@ -15,15 +15,29 @@ static int is_inside(const fe_cell *c, const double *xi)
     double sum = 0;
 
     for (int k = 0; k < c->dim; k++) {
-        if (c->simplex ? xi[k] < -OUTSIDE : fabs(xi[k]) > 1 + OUTSIDE)
+        if (!(c->simplex ? xi[k] >= -OUTSIDE : fabs(xi[k]) <= 1 + OUTSIDE)) /* nor where x is no number */
             return 0;
         sum += xi[k];
     }
     return !c->simplex || sum <= 1 + OUTSIDE;
 }
 
+/* In a box the mapping is linear, direction by direction. */
+static void locate_in_box(const mesh *m, int64_t cell, const double *x, double *xi)
+{
+    double at[3], j[3][3];
+
+    mesh_place(m, cell, (const double[3]){0}, at, j);
+    for (int k = 0; k < 3; k++)
+        xi[k] = k < m->dim ? (x[k] - at[k]) / j[k][k] : 0;
+}
+
 int locate_in_cell(const mesh *m, int64_t cell, const double *x, double *xi)
 {
+    if (m->is_box && m->is_box[cell]) {
+        locate_in_box(m, cell, x, xi);
+        return is_inside(m->type, xi);
+    }
     for (int k = 0; k < 3; k++)
         xi[k] = m->type->simplex ? 0.25 : 0;
     for (int it = 0; it < 30; it++) {

@@ -8,6 +8,7 @@
 
 enum { COARSEST = 500 }; /* blocks */
 #define STRENGTH 0.02
+enum { SWEEPS = 3 }; /* they cost little, as all levels together are a twentieth of the velocities */
 
 /* The block of a field (and of a component) at a node, or -1. */
 static int32_t block_at(const split *s, int64_t group, int field, int slot)
@@ -379,7 +380,8 @@ void levels_correct(levels *l, const float *q, float *u)
     solve_coarse(l, &l->level[last]);
     for (int k = last - 1; k >= 0; k--) {
         apply_shares(&l->level[k].prolong, b, l->level[k].active, l->level[k + 1].x, l->level[k].x);
-        relax(&l->level[k]);
+        for (int m = 0; m < SWEEPS; m++)
+            relax(&l->level[k]);
     }
     apply_shares(&l->prolong, b, s->active, l->level[0].x, u);
 }

@@ -13,18 +13,23 @@
 
 enum { THREADS = 2 };
 
-opened *open_case(const char *path, const char *const *sets, int n)
+static opened *open_on(const char *path, const char *const *sets, int n, int n_thread)
 {
     opened *k = calloc(1, sizeof *k);
 
     assert_non_null(k);
     if (case_load(&k->c, path, sets, n, NULL, &k->err) || registry_create(&k->r, NULL, 0, &k->err) ||
-        problem_create(&k->p, &k->c, &k->r, THREADS, &k->err))
+        problem_create(&k->p, &k->c, &k->r, n_thread, &k->err))
         fail_msg("%s %s: %s", path, n ? sets[0] : "", k->err.text);
     return k;
 }
 
-opened *open_text(const char *text, const char *const *sets, int n)
+opened *open_case(const char *path, const char *const *sets, int n)
+{
+    return open_on(path, sets, n, THREADS);
+}
+
+static opened *write_and_open(const char *text, const char *const *sets, int n, int n_thread)
 {
     const char *folder = getenv("TMPDIR");
     char path[400];
@@ -39,9 +44,19 @@ opened *open_text(const char *text, const char *const *sets, int n)
         fail_msg("cannot write %s", path);
     fputs(text, file);
     fclose(file);
-    k = open_case(path, sets, n);
+    k = open_on(path, sets, n, n_thread);
     unlink(path);
     return k;
+}
+
+opened *open_text(const char *text, const char *const *sets, int n)
+{
+    return write_and_open(text, sets, n, THREADS);
+}
+
+opened *open_text_on(const char *text, int n_thread)
+{
+    return write_and_open(text, NULL, 0, n_thread);
 }
 
 void close_case(opened *k)

@@ -17,6 +17,8 @@ typedef struct opened {
 opened *open_case(const char *path, const char *const *sets, int n);
 /* The same for the text of a case. */
 opened *open_text(const char *text, const char *const *sets, int n);
+/* And on n threads. */
+opened *open_text_on(const char *text, int n_thread);
 void close_case(opened *k);
 
 /* Reproducible numbers in [-1, 1]. */

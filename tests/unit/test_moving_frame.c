@@ -152,6 +152,59 @@ static void a_linear_velocity_has_no_rate(void **state)
     }
 }
 
+/* Bodies all round, in a periodic box: a path does not depend on whether those near it are looked up in the grid.
+ */
+static void the_grid_of_bodies_misses_none(void **state)
+{
+    static const char text[] = "case 'Disks'\nmesh { box = {{0, 0}, {2, 1}}, cells = {48, 24} }\n"
+                               "fluid { density = 1, viscosity = 1, region = 'outside' }\n"
+                               "term 'continuity' {}\nterm 'momentum' {}\nparticulate('sharp', { inflow = 0 })\n"
+                               "boundary { periodic = {'left', 'right'} }\n"
+                               "boundary 'bottom' { u = {0, 0} }\nboundary 'top' { u = {0, 0} }\n"
+                               "particles { n = 12, shape = disk { radius = 0.09 }, density = 2,\n"
+                               "  inside = {{0.1, 0.1}, {1.9, 0.9}}, gap = 0.01, seed = 2 }\n"
+                               "particle { shape = ellipse { a = 0.05, b = 0.03 }, density = 2, at = {0, 0.5} }\n"
+                               "time { scheme = 'bdf2', step = 0.1, stop = 1 }\n";
+    moved m = {.k = open_text(text, NULL, 0)};
+    problem *p = &m.k->p;
+    pose old[2][13];
+    int64_t moves = 0;
+
+    (void)state;
+    assert_int_equal(problem_initial(p, &m.k->err), 0);
+    m.history = calloc((size_t)(3 * p->space.n_dof), sizeof(double));
+    assert_non_null(m.history);
+    fill_random(m.history, 3 * p->space.n_dof, 4);
+    for (int l = 0; l < 2; l++)
+        for (int b = 0; b < 13; b++) {
+            old[l][b] = p->state.pose[b];
+            for (int k = 0; k < 2; k++)
+                old[l][b].way[k] -= (l + 1) * way[k] * (1 + 0.1 * b);
+        }
+    m.frame =
+        bodies_paths(&p->bodies, p->bodies.now, 2, then, (const double *[]){m.history, m.history + p->space.n_dof},
+                     (const pose *[]){old[0], old[1]}, m.history + 2 * p->space.n_dof);
+    assert_non_null(m.frame);
+    assert_true(p->bodies.paths.near.n_box > 13);
+    for (int64_t cell = 0; cell < p->mesh.n_cell; cell++) {
+        int64_t n = p->bodies.paths.near.n_box;
+        double x[3], w[2][3] = {{0}}, h[2][3] = {{0}};
+        int any[2];
+
+        centre(p, cell, 1, x);
+        any[0] = m.frame->at(m.frame->ctx, cell, x, w[0], h[0]);
+        p->bodies.paths.near.n_box = 0; /* without a grid all are looked at */
+        any[1] = m.frame->at(m.frame->ctx, cell, x, w[1], h[1]);
+        p->bodies.paths.near.n_box = n;
+        assert_int_equal(any[0], any[1]);
+        assert_memory_equal(w[0], w[1], sizeof w[0]);
+        assert_memory_equal(h[0], h[1], sizeof h[0]);
+        moves += any[0];
+    }
+    assert_true(moves > 500);
+    drop(&m);
+}
+
 static double bent(int a, const double *x, double *gradient)
 {
     (void)gradient;
@@ -248,6 +301,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_linear_velocity_has_no_rate),
+        cmocka_unit_test(the_grid_of_bodies_misses_none),
         cmocka_unit_test(what_a_body_carries_is_steady_along_its_path),
         cmocka_unit_test(the_jacobian_knows_the_paths),
     };

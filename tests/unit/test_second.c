@@ -2,7 +2,7 @@
  *
  * Laplacians of fields and metrics of elements, as terms see them, on all four kinds of cells: against polynomials,
  * against differences of the finite element function, and against what metrics do to edges. */
-#include "assemble/assemble.h"
+#include "assemble/batch.h"
 #include "support/opened.h"
 
 #include <setjmp.h>

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * batch.h -- what the files of this folder share: the room of a thread, and the steps that a batch goes through. */
+#ifndef ASSEMBLE_BATCH_H
+#define ASSEMBLE_BATCH_H
+
+#include "assemble/assemble.h"
+
+typedef struct workspace {
+    v8 *x_node; /* [dim][nodes]                                            */
+    v8 *gap, *size[2], *other_density;
+    v8 *arm, *density;      /* [dim][n_q], [n_q] */
+    int32_t *id;            /* [n_q][8] */
+    v8 *w, *x, *normal, *h; /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
+    v8 *metric;             /* [dim*dim][n_q], see pf_batch; NULL: no class has it */
+    /* Where the class has a tensor rule: dxi/dx [dim*dim][n_q], of a batch of boxes only its diagonal, the same at
+     * all points, in scale; room for numbers at points by reference derivatives, and of the stages. */
+    int boxes;
+    v8 scale[3], *inverse, *reference, *stages;
+    v8 *basis[3][BASIS_ROWS]; /* [order][value, d/dx, d/dy, d/dz, Laplacian]: [i][n_q], i padded; NULL: not used, or
+                               the class has a tensor rule */
+    v8 *dof;                  /* nodal values of one field                               */
+    v8 *rate;                 /* [3 + 9][n_q] room: a field and its gradient */
+    const v8 *frame;          /* w and history of this batch, see assembly_class; NULL: none */
+    v8 *in, *test, *block, *out, *jac, *room;
+    uint8_t *filled;     /* [block_size] 1: some term has that entry of D; others have no value */
+    v8 *g;               /* one strip of D B_j                                      */
+    v8 *vec, *mat;       /* element vector and matrix, see element_layout            */
+    v8 *still, *unknown; /* zeros for a rate; the unknowns as the tests take them [test_size] */
+    const v8 *unknown_of[ASSEMBLE_MAX_TESTS]; /* of each test of the class: there, or among the inputs */
+    double (*power)[POWERS];                  /* [assembly.n_use] */
+    void *scratch;
+    term_report report;
+    int64_t failed_batch;
+    arena memory;
+} workspace;
+
+/* Orders the items of a class by slabs, in batches (slabs.c). */
+int slabs_make(assembly *a, assembly_class *c, arena *memory, error *err);
+/* shares.c: which bodies' rows have copies; the copies before the slabs run; that of an item, or NULL; afterwards.
+ */
+int shares_find(assembly *a, assembly_class *c, arena *memory, error *err);
+int shares_clear(assembly *a, assembly_class *c, int with_matrix, error *err);
+const body_share *shares_at(const assembly *a, const assembly_class *c, int slab, int64_t item);
+void shares_add(const assembly *a, const assembly_class *c, double *residual, double *value);
+/* fresh.c: lists the nodes that each batch comes to first; zeroes the matrix but for what the batches of the first
+ * class zero then, returns whether they do; zeroes the rows of the nodes that are new in a batch. */
+int fresh_find(const assembly *a, assembly_class *c, arena *memory, error *err);
+int fresh_begin(const assembly *a, const assembly_state *s, double *value);
+void fresh_clear(const assembly *a, const assembly_class *c, int64_t batch, double *value);
+/* layout.c */
+int layout_create(assembly *a, assembly_class *c, error *err);
+/* Finds out whether the class has a tensor rule. */
+int layout_tensor(assembly *a, assembly_class *c, error *err);
+/* Unknowns of the items of a class. */
+int layout_items(const assembly *a, assembly_class *c, arena *memory, error *err);
+/* Adds the element vectors, the element matrices of the items of a batch (scatter.c). */
+void scatter_vector(const assembly *a, const assembly_class *c, int64_t batch, int slab, const workspace *w,
+                    double *residual);
+void scatter_matrix(const assembly *a, const assembly_class *c, int64_t batch, int slab, const workspace *w,
+                    double *value);
+/* Room for n items of a class, from where they come; then, when cells and groups are known, their order (items.c).
+ */
+int items_room(assembly_class *c, int64_t n, arena *memory, error *err);
+int items_order(assembly *a, assembly_class *c, arena *memory, error *err);
+/* Gives the classes that follow the bodies their items, if these are others than before (items.c). */
+int items_take(assembly *a, const body_points *b, error *err);
+int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err);
+/* Room for the values of the case's functions at the points of a class. */
+int inputs_room(arena *memory, assembly_class *c, error *err);
+int workspace_create(const assembly *a, workspace *w, error *err);
+int inputs_functions(assembly *a, assembly_class *c, workspace *w, double t, error *err);
+/* History along moving paths at all points near bodies; once per placement of these (history.c). */
+int history_update(const assembly *a, assembly_class *c, const moving_frame *f, error *err);
+/* Of the batch: takes an input du/dt over to the moving paths; w->dof: nodal values of its field now. */
+void history_take(const assembly *a, const assembly_class *c, const assembly_state *s, const plan_input *in,
+                  workspace *w);
+/* Its part of the Jacobian: d(du/dt) = shift du - w . grad du. */
+void history_jacobian(const pf_slot *out, const pf_slot *in, int n_trial, double factor, const double *jac, int dim,
+                      size_t ld, const double *velocity, double *block, uint8_t *filled);
+/* Laplacians of basis functions at a point, one a lane: M : d^2 n - e . dn with reference derivatives, where
+ * M = G G^T, G = dxi/dx, and e = G (M : d^2 x) makes up for the curvature of the mapping (second.c). */
+typedef struct laplacian {
+    v8 m[FE_SECOND], e[3];
+} laplacian;
+laplacian laplacian_of(int dim, int n_node, const v8 *x_node, const double (*d2n)[FE_SECOND], v8 inv[3][3]);
+v8 laplacian_apply(const laplacian *p, int dim, const double dn[3], const double d2n[FE_SECOND]);
+/* Component (a, b) of pf_batch.metric; inv = dxi/dx. */
+v8 metric_of(int dim, int simplex, v8 inv[3][3], int a, int b);
+void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
+/* inv = dxi/dx of j = dx/dxi; returns the determinant of j. */
+v8 geometry_inverse(int dim, v8 j[3][3], v8 inv[3][3]);
+/* The same where there is a tensor rule (boxes.c): without bases, with w->boxes, w->scale or w->inverse. */
+void geometry_tensor(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
+/* Nodal values w->dof of a field at the points; to [components of eval][n_q]. */
+void interpolate(const assembly_class *c, const field_spec *f, int dim, uint32_t eval, workspace *w, v8 *to);
+void inputs_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                   workspace *w);
+/* The unknowns that the rows of the class belong to, as their test functions enter (value or gradient). */
+void inputs_unknowns(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                     workspace *w);
+/* Adds the power of a term with outputs `out` to w->power (power.c); the outputs are overwritten. */
+int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, const plan_use *p, double factor,
+              const pf_batch *b, const double *const *in, double *const *out, workspace *w);
+void power_clear(assembly *a);
+/* The sums of all threads, in their order. */
+void power_sum(const assembly *a, assembly_power *power);
+/* Whether any term of the class takes part in this state. */
+int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s);
+int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                   int with_matrix, int diagnose, workspace *w);
+/* All rows of the field: in the vector, and in the matrix with the columns of the fields that it may couple with.
+ */
+void element_vector(const assembly *a, const assembly_class *c, int field, workspace *w);
+void element_matrix(const assembly *a, const assembly_class *c, int field, workspace *w);
+
+/* Sums of element_vector and element_matrix by tensor.c (element_tensor.c): values [components][n_q] and gradients
+ * of the rows, NULL: none; coefficients d[e][f] between components a and b. */
+void element_vector_tensor(const assembly_class *c, int field, const field_spec *f, const v8 *value, const v8 *grad,
+                           workspace *w);
+void element_matrix_tensor(const assembly_class *c, int row_order, int column_order,
+                           const v8 *d[TEST_ROWS][BASIS_ROWS], const int32_t *place, v8 *mat, workspace *w);
+
+/* Item of lane l of a batch; lanes past the end repeat the last one. */
+static inline int64_t assemble_item(const assembly_class *c, int64_t batch, int lane)
+{
+    int64_t first = c->batch[batch], last = c->batch[batch + 1] - 1, i = first + lane;
+
+    return i < last ? i : last;
+}
+
+static inline int assemble_padded(int n)
+{
+    return (n + ASSEMBLE_PAD - 1) / ASSEMBLE_PAD * ASSEMBLE_PAD;
+}
+
+/* Carrier of local node i of a field on a cell (index into the cell's carriers). */
+static inline int assemble_local(const space *s, int field, int i)
+{
+    const fe_cell *type = s->mesh->type;
+
+    if (s->field[field].order)
+        return s->field[field].order == 2 ? i : type->vertex[i];
+    return type->n_node + (s->field[field].support == PF_ON_PARTICLE ? s->any_problem : 0);
+}
+
+/* The same on an item of a class: a pair lists two bodies, a bad cell and its root the nodes of both. */
+static inline int assemble_item_local(const assembly_class *c, const space *s, int field, int i)
+{
+    int n = fe_n_basis(s->mesh->type, s->field[field].order);
+
+    if (c->where == PF_PAIR)
+        return i;
+    return i < n ? assemble_local(s, field, i) : s->mesh->type->n_node + assemble_local(s, field, i - n);
+}
+
+#endif
