@@ -69,12 +69,12 @@ int linear_analyze(linear *l, int method, int *unfit, error *err)
     if (l->stats.cost.bytes > memory)
         return error_set(
             err, ERR_MEMORY,
-            "linear solver %s will need %.3g GB for %lld unknowns and there are %.3g GB: take fewer cells "
-            "(%.0f %% in each direction would fit), a 2D or symmetric part of the problem, or a machine "
-            "with more memory%s%s",
-            solver->name, l->stats.cost.bytes / 1e9, (long long)l->a.n, memory / 1e9,
-            100 * pow(memory / l->stats.cost.bytes, 0.25), *l->stats.why ? "; the iterative solver: " : "",
-            l->stats.why);
+            "the %s of %lld unknowns will need %.3g GB (%s) and there are %.3g GB: take fewer cells (%.0f %% in "
+            "each "
+            "direction would fit), a 2D or symmetric part of the problem, or a machine with more memory%s%s",
+            linear_approximates(solver) ? "blocks" : "factors", (long long)l->a.n, l->stats.cost.bytes / 1e9,
+            solver->name, memory / 1e9, 100 * pow(memory / l->stats.cost.bytes, 0.25),
+            *l->stats.why ? "; the iterative solver: " : "", l->stats.why);
     l->at = method;
     l->analyzed = 1;
     return 0;

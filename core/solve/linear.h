@@ -49,7 +49,7 @@ typedef struct linear {
     int spent;              /* GMRES iterations since the last factorisation, beyond what fresh ones take */
     int usual;              /* iterations of the iterative solver, freshly set up */
     double memory_limit;    /* bytes                                                    */
-    double *row_scale;      /* [n] their inverses by rows */
+    double *row_scale;      /* [n] by which residuals count in an iterative solver, see measure.c */
     unknowns rows;
     const int64_t *pin; /* [n_field] row of the value that is held of a free field, or -1 */
     band band;          /* where bodies have moved since the last factorisation */
