@@ -102,7 +102,8 @@ typedef struct output_spec {
 typedef struct solve_spec {
     double tolerance; /* of Newton, per field */
     int max_iterations;
-    double linear_tolerance; /* of GMRES with old factors; 0: factor every matrix */
+    double linear_tolerance; /* what GMRES with old factors may leave at most; 0: factor every matrix */
+    int coarse_start;        /* of a steady case on a box; -1: where it pays */
     double fall;             /* of a step in time, see newton_options */
     const char *solver;      /* plugin of the linear solver, without "solver_"; NULL: the kernel chooses */
     int n_continued;         /* parameters of terms that a steady case is continued in, */
@@ -149,6 +150,8 @@ void describe_destroy(description *d);
 int describe_has(const description *d, int where);
 /* Whether the mesh is a box that nothing bends, so that its sides are known before it is made. */
 int describe_is_box(const description *d);
+/* Whether bodies move in time. */
+int describe_moves(const description *d);
 
 /* --- between the files of this folder: one function a block --- */
 

@@ -185,3 +185,12 @@ int describe_is_box(const description *d)
 {
     return d->mesh.box.dim > 0 && !d->mesh.path && !d->mesh.has_map;
 }
+
+int describe_moves(const description *d)
+{
+    int moves = 0;
+
+    for (int k = 0; k < d->n_body && d->time.unsteady; k++)
+        moves |= d->body[k].motion != BODY_FIXED;
+    return moves;
+}

@@ -177,20 +177,24 @@ static void read_solve(description *d)
 
     *o = (solve_spec){.tolerance = 1e-11,
                       .max_iterations = 25,
-                      .linear_tolerance = d->time.unsteady ? 1e-6 : 0,
+                      .linear_tolerance = 0.1,
+                      .coarse_start = -1,
                       .fall = d->time.unsteady ? STEP_FALL : 0};
     reader_open(&r, d->c, case_find(d->c, "solve", 0), "solve");
     if (reader_number(&r, "tolerance", "Newton stops when every field's residual is this small, relative", 1e-15,
                       0.1, &o->tolerance) > 0)
         o->fall = 0;
     reader_integer(&r, "max_iterations", "of Newton", 1, DESCRIBE_MAX_ITERATIONS, &o->max_iterations);
-    reader_number(&r, "linear_tolerance", "of GMRES with old factors; 0: factor every matrix", 0, 0.1,
+    reader_number(&r, "linear_tolerance",
+                  "what GMRES with old factors may leave of a residual, at most; 0: factor every matrix", 0, 0.1,
                   &o->linear_tolerance);
     reader_string(&r, "solver",
                   "linear solver, a plugin: \"umfpack\", \"block\"; \"auto\" chooses by predicted cost",
                   &o->solver);
     if (o->solver && strcmp(o->solver, "auto") == 0)
         o->solver = NULL;
+    reader_bool(&r, "coarse_start", "whether a steady case on a box starts from the solution on half as many cells",
+                &o->coarse_start);
     read_continuation(d, &r);
     reader_close(&r);
 }

@@ -83,3 +83,25 @@ int problem_make_mesh(const description *d, registry *r, mesh *m, error *err)
         error_prefix(err, "%s:%d: ", d->mesh.block->file, d->mesh.block->line);
     return status;
 }
+
+int problem_halve(mesh_box *box, arena *memory, error *err)
+{
+    for (int k = 0; k < box->dim; k++) {
+        const int n = box->n[k], half = (n + 1) / 2;
+        const double *fine = box->ticks[k];
+        double *ticks;
+
+        box->n[k] = half;
+        if (!fine)
+            continue;
+        ARENA_NEW(memory, ticks, half + 1, err);
+        for (int i = 0; i <= half; i++) { /* of an odd number not all ticks are among the fine ones */
+            const double at = (double)i * n / half;
+            const int below = at < n ? (int)at : n - 1;
+
+            ticks[i] = fine[below] + (at - below) * (fine[below + 1] - fine[below]);
+        }
+        box->ticks[k] = ticks;
+    }
+    return 0;
+}

@@ -5,12 +5,7 @@
 
 #include "base/clock.h"
 
-#include <stdio.h>
 #include <string.h>
-
-/* In cut cells Gauss's theorem holds as exactly as their quadrature; with an outflow the constant is off by
- * the square root of its share of all cells. */
-#define CUT_CLOSURE 3e-4
 
 static int make_periodic(const description *d, mesh *m, error *err)
 {
@@ -75,36 +70,13 @@ static void plan_continuation(problem *p)
     }
 }
 
-/* The linear solvers there are: that of the case, or a factorisation and one that iterates. */
-static int find_solvers(const problem *p, registry *r, linear_choice *c, error *err)
-{
-    const char *named = p->description.solve.solver, *plain;
-    char name[100];
-    const pf_solver *s;
-    error ignored;
-
-    for (int k = 0; k < p->description.n_body && p->description.time.unsteady; k++)
-        c->each_step |= p->description.body[k].motion != BODY_FIXED;
-    if (named) {
-        plain = strncmp(named, "solver_", 7) == 0 ? named + 7 : named;
-        snprintf(name, sizeof name, "solver_%s", plain);
-        TRY(registry_solver(r, name, &s, err));
-        *(linear_approximates(s) ? &c->iterative : &c->direct) = s;
-        return 0;
-    }
-    if (registry_solver(r, "solver_block", &c->iterative, &ignored))
-        c->iterative = NULL;
-    return registry_solver(r, "solver_umfpack", &c->direct, err) && !c->iterative ? err->code : 0;
-}
-
 /* Terms by the points that they act on: one class for the cells, one each for what follows the bodies, one
  * for terms on all facets, one for each boundary line with fluxes. */
-static int make_system(problem *p, registry *r, error *err)
+static int make_system(problem *p, const linear_choice *solvers, error *err)
 {
     description *d = &p->description;
     assembly_spec spec[DESCRIBE_MAX_LINES + PF_PAIR + 2] = {{0}};
     term_use *on[PF_PAIR + 1][DESCRIBE_MAX_TERMS];
-    linear_choice solvers = {0};
     uint8_t *all;
     int n = 0, n_on[PF_PAIR + 1] = {0};
 
@@ -135,17 +107,35 @@ static int make_system(problem *p, registry *r, error *err)
                                         .use = d->line[i].flux,
                                         .n_use = d->line[i].n_flux,
                                         .facet_on = p->conditions.facet[i]};
-    TRY(find_solvers(p, r, &solvers, err));
-    TRY(system_create(&p->system, &p->space, spec, n, &solvers, p->n_thread, err));
+    TRY(system_create(&p->system, &p->space, spec, n, solvers, p->n_thread, err));
     p->system.linear.warnings = &p->warnings;
-    if (p->bodies.has_surface)
-        p->system.gauge.tolerance = CUT_CLOSURE;
+    p->system.gauge.sharp = p->bodies.has_surface;
     return 0;
+}
+
+/* Everything on the mesh. */
+static int build(problem *p, const linear_choice *solvers, error *err)
+{
+    description *d = &p->description;
+
+    TRY(space_number(&p->space, &d->fields, &p->mesh, d->n_body, err));
+    TRY(conditions_create(&p->conditions, d, &p->space, &p->warnings, err));
+    TRY(problem_check_resolution(p, err));
+    TRY(bodies_create(&p->bodies, d, &p->space, &p->grid, &p->conditions, &p->warnings, err));
+    TRY(space_constrain(&p->space, err));
+    TRY(make_system(p, solvers, err));
+    plan_continuation(p);
+    p->newton = (newton_options){.tolerance = d->solve.tolerance,
+                                 .fall = d->solve.fall,
+                                 .max_iterations = d->solve.max_iterations,
+                                 .linear_tolerance = d->solve.linear_tolerance};
+    return state_create(&p->state, p->space.n_dof, d->n_body, err);
 }
 
 int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *err)
 {
     description *d = &p->description;
+    linear_choice solvers = {0};
     double start = clock_seconds();
 
     memset(p, 0, sizeof *p);
@@ -162,20 +152,24 @@ int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *e
         TRY(bodies_check_places(d, &p->mesh, &p->grid, err));
         TRY(case_finish(c, err));
     }
-    TRY(space_number(&p->space, &d->fields, &p->mesh, d->n_body, err));
-    TRY(conditions_create(&p->conditions, d, &p->space, &p->warnings, err));
-    TRY(problem_check_resolution(p, err));
-    TRY(bodies_create(&p->bodies, d, &p->space, &p->grid, &p->conditions, &p->warnings, err));
-    TRY(space_constrain(&p->space, err));
-    TRY(make_system(p, r, err));
-    plan_continuation(p);
-    p->newton = (newton_options){.tolerance = d->solve.tolerance,
-                                 .fall = d->solve.fall,
-                                 .max_iterations = d->solve.max_iterations,
-                                 .linear_tolerance = d->solve.linear_tolerance};
-    TRY(state_create(&p->state, p->space.n_dof, d->n_body, err));
+    solvers.each_step = describe_moves(d);
+    TRY(linear_find(&solvers, r, d->solve.solver, err));
+    TRY(build(p, &solvers, err));
     p->setup_seconds = clock_seconds() - start;
     return 0;
+}
+
+int problem_create_coarse(problem *p, const problem *fine, error *err)
+{
+    memset(p, 0, sizeof *p);
+    p->n_thread = fine->n_thread;
+    p->description = fine->description;
+    p->description.memory = (arena){0};
+    TRY(problem_halve(&p->description.mesh.box, &p->memory, err));
+    TRY(problem_make_mesh(&p->description, NULL, &p->mesh, err));
+    TRY(make_periodic(&p->description, &p->mesh, err));
+    TRY(cell_grid_create(&p->grid, &p->mesh, err));
+    return build(p, &fine->system.linear.choice, err);
 }
 
 const body_points *problem_points(const problem *p)

@@ -32,6 +32,9 @@ typedef struct problem {
 /* Reads everything, reports all mistakes of the case at once, then makes the mesh, numbers the
  * unknowns and plans the assembly. */
 int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *err);
+/* The problem of a box without bodies on half as many cells; to be destroyed before the fine one, whose
+ * description it shares.  Its warnings are its own. */
+int problem_create_coarse(problem *p, const problem *fine, error *err);
 void problem_destroy(problem *p);
 
 /* The state at the start: initial values (zero where the case gives none), then the prescribed ones. */
@@ -47,5 +50,7 @@ void problem_numbers(const description *d, const char *field, double *density, d
 int problem_carries(const term_use *u, const char *field);
 /* Makes the mesh that a description says (make_mesh.c). */
 int problem_make_mesh(const description *d, registry *r, mesh *m, error *err);
+/* A box with half as many cells in each direction that has two or more. */
+int problem_halve(mesh_box *box, arena *memory, error *err);
 
 #endif

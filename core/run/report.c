@@ -4,6 +4,8 @@
 #include "run/run.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 int run_log_solve(run *r, double t, double dt, const newton_report *report, error *err)
@@ -59,6 +61,21 @@ int run_log_failures(run *r, error *err)
     return 0;
 }
 
+/* A warning, once, if it cannot be told whether a field is free. */
+static void warn_doubt(run *r)
+{
+    for (int f = 0; f < r->p->space.n_field && !r->warned_doubt; f++)
+        if (r->p->system.gauge.doubt[f] > 0) {
+            r->warned_doubt = 1;
+            warning_add(
+                &r->p->warnings,
+                "away from bodies nothing fixes the level of %s, and near them the equations do so weakly, by "
+                "%.1g of their terms: if it is their quadrature, %s and forces are off by a constant part; take "
+                "more cells across a body",
+                r->p->space.field[f].name, r->p->system.gauge.doubt[f], r->p->space.field[f].name);
+        }
+}
+
 /* A warning if what flows in does not flow out. */
 void run_warn_defect(run *r)
 {
@@ -66,6 +83,7 @@ void run_warn_defect(run *r)
     const gauge *g = &p->system.gauge;
     double speed = 0;
 
+    warn_doubt(r);
     for (int64_t d = 0; d < p->space.n_dof; d++)
         if (p->space.field[p->space.dof_field[d]].shape == PF_VECTOR)
             speed = fmax(speed, fabs(r->x[d]));
@@ -103,6 +121,19 @@ void run_warn_order(run *r, const newton_report *report)
             "%s compares them one by one",
             report->order, r->p->description.c->path);
     r->warned_order |= report->linear_only;
+}
+
+void run_say(const run *r, const char *fmt, ...)
+{
+    char line[1000];
+    va_list ap;
+
+    if (!r->talk || !r->talk->say)
+        return;
+    va_start(ap, fmt);
+    vsnprintf(line, sizeof line, fmt, ap);
+    va_end(ap);
+    r->talk->say(r->talk->ctx, line);
 }
 
 /* Says and logs the warnings that have come since the last call. */

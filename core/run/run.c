@@ -6,99 +6,11 @@
 #include "base/clock.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 /* Part of the time itself below which a step is too short to be told from none. */
 #define LEAST 1e-14
-
-static void say(const run *r, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
-static void say(const run *r, const char *fmt, ...)
-{
-    char line[1000];
-    va_list ap;
-
-    if (!r->talk || !r->talk->say)
-        return;
-    va_start(ap, fmt);
-    vsnprintf(line, sizeof line, fmt, ap);
-    va_end(ap);
-    r->talk->say(r->talk->ctx, line);
-}
-
-/* Newton's iterations of a steady case, one line each. */
-static void tell_newton(void *ctx, int iteration, double norm, const double *field_norm, double length)
-{
-    const run *r = ctx;
-    const space *s = &r->p->space;
-    char line[400];
-    int n = snprintf(line, sizeof line, "  newton %2d  residual %.2e ", iteration, norm);
-
-    for (int f = 0; f < s->n_field && n < 300; f++)
-        n += snprintf(line + n, sizeof line - (size_t)n, "  %s %.1e", s->field[f].name, field_norm[f]);
-    if (iteration > 0 && length < 1)
-        snprintf(line + n, sizeof line - (size_t)n, "  step %.3g", length);
-    say(r, "%s", line);
-}
-
-static void tell_continuation(void *ctx, double s, int iterations, int converged)
-{
-    const run *r = ctx;
-
-    if (s >= 1 && !converged)
-        say(r, "  no convergence from here in %d iterations; going on by continuation", iterations);
-    else
-        say(r, "  continuation at %.3g: %s in %d iterations", s, converged ? "converged" : "no convergence",
-            iterations);
-}
-
-static int steady(run *r, const volatile sig_atomic_t *stop, error *err)
-{
-    problem *p = r->p;
-    newton_report report;
-    int steps;
-
-    p->system.talk = tell_newton;
-    p->system.talk_ctx = r;
-    p->system.stop = stop;
-    p->continuation.bodies = problem_points(p);
-    TRY(continuation_solve(&p->system, &p->continuation, &p->newton, p->state.x, &report, &steps, tell_continuation,
-                           r, err));
-    r->result->newton_iterations = report.total;
-    r->result->last_newton = report.iterations;
-    r->result->newton_order = report.order;
-    r->result->newton_ratio = report.ratio;
-    r->result->steps = 1;
-    run_warn_order(r, &report);
-    if (!report.converged && stop && *stop) {
-        r->result->status = "interrupted";
-        return 0;
-    }
-    if (!report.converged && report.singular)
-        return error_set(err, ERR_CONVERGE, "no steady state found: %s", report.why);
-    if (!report.converged)
-        return error_set(err, ERR_CONVERGE,
-                         "no steady state found: %s; refine the mesh, start from an easier problem (solve { "
-                         "continuation = { viscosity = "
-                         "... } }), or make the case unsteady with time {}",
-                         report.why);
-    run_warn_singular(r, &report);
-    say(r, "  converged in %d iterations, observed order %.1f, |r| / |r_before|^2 = %.2g", report.iterations,
-        report.order, report.ratio);
-    if (p->bodies.n)
-        TRY(bodies_fill(&p->bodies, p->bodies.now, p->state.x, err));
-    run_take_solution(r);
-    TRY(stepper_steady(r->stepper, err));
-    TRY(energy_step(r, err));
-    TRY(run_log_solve(r, 0, 0, &report, err));
-    run_warn_defect(r);
-    TRY(output_take(r, 0, err));
-    TRY(tables_add(r, 0, err));
-    TRY(particles_write(r, 0, err));
-    TRY(output_fields(r, 0, err));
-    return lines_write(r, 0, err);
-}
 
 static int unsteady(run *r, const volatile sig_atomic_t *stop, error *err)
 {
@@ -196,7 +108,7 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
     r.forces.fd = r.probes.fd = r.particles.fd = -1;
     status = prepare(&r, err);
     if (!status) {
-        status = p->description.time.unsteady ? unsteady(&r, stop, err) : steady(&r, stop, err);
+        status = p->description.time.unsteady ? unsteady(&r, stop, err) : run_steady(&r, stop, err);
         if (!status)
             status = finish(&r, err);
         if (status)
@@ -209,7 +121,7 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
             status = err->code;
         energy_say(&r);
         if (!status)
-            say(&r, "  %s", r.results.s ? r.results.s : "");
+            run_say(&r, "  %s", r.results.s ? r.results.s : "");
     }
     energy_close(&r);
     output_close(&r);

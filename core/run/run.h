@@ -71,7 +71,7 @@ typedef struct run {
     double *time;         /* [n_time] of the rows of tables, s */
     uint8_t *facet_count; /* [3 n_node] room for reactions of a boundary */
     struct located *probe_at, **line_at;
-    int log_fd, warned, warned_singular, warned_order;
+    int log_fd, warned, warned_singular, warned_order, warned_doubt;
     int told; /* warnings said so far */
     int n_file, room;
     char **file;
@@ -89,10 +89,13 @@ typedef struct run {
     arena memory;
 } run;
 
+/* The one solution of a steady run (steady.c). */
+int run_steady(run *r, const volatile sig_atomic_t *stop, error *err);
 /* The steps of an unsteady run (march.c). */
 int march(run *r, const volatile sig_atomic_t *stop, error *err);
-/* What both kinds of runs do after a solution (report.c): a line of the log; warnings; r->x, the solution as it is
- * shown. */
+/* What both kinds of runs do after a solution (report.c): a line for the user; a line of the log; warnings; r->x,
+ * the solution as it is shown. */
+void run_say(const run *r, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 int run_log_solve(run *r, double t, double dt, const newton_report *report, error *err);
 int run_log_failures(run *r, error *err); /* the tries at the last step that failed */
 void run_warn_defect(run *r);

@@ -89,13 +89,22 @@ static void add_counts(const problem *p, const run_result *q, text *t)
 
 static void add_seconds(const problem *p, const run_result *q, text *t)
 {
-    const struct {
+    struct {
         const char *name;
         double seconds;
-    } part[] = {{"setup", p->setup_seconds},   {"geometry", p->bodies.seconds}, {"assemble", q->seconds_assemble},
-                {"factor", q->seconds_factor}, {"solve", q->seconds_solve},     {"output", q->seconds_output},
+    } part[] = {{"setup", p->setup_seconds},
+                {"geometry", p->bodies.seconds},
+                {"assemble", q->seconds_assemble},
+                {"factor", q->seconds_factor},
+                {"solve", q->seconds_solve},
+                {"output", q->seconds_output},
+                {"other", 0},
                 {"total", q->seconds_total}};
+    enum { OTHER = sizeof part / sizeof *part - 2 };
 
+    part[OTHER].seconds = q->seconds_total;
+    for (int i = 0; i < OTHER; i++)
+        part[OTHER].seconds -= part[i].seconds;
     text_add(t, ",\n  \"seconds\": {");
     for (size_t i = 0; i < sizeof part / sizeof *part; i++) {
         text_add(t, "%s\"%s\": ", i ? ", " : "", part[i].name);

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 /* Operations of a factorisation from which an iterative solver is taken: some seconds where one serves for many
@@ -30,6 +31,28 @@ static double available_memory(void)
     if (f)
         fclose(f);
     return kb > 0 ? 1024 * kb : (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+}
+
+int linear_approximates(const pf_solver *s)
+{
+    return LINEAR_HAS(s, flags) && (s->flags & PF_SOLVER_APPROXIMATE);
+}
+
+int linear_find(linear_choice *c, registry *r, const char *named, error *err)
+{
+    const pf_solver *s;
+    char name[100];
+    error ignored;
+
+    if (named) {
+        snprintf(name, sizeof name, "%s%s", strncmp(named, "solver_", 7) == 0 ? "" : "solver_", named);
+        TRY(registry_solver(r, name, &s, err));
+        *(linear_approximates(s) ? &c->iterative : &c->direct) = s;
+        return 0;
+    }
+    if (registry_solver(r, "solver_block", &c->iterative, &ignored))
+        c->iterative = NULL;
+    return registry_solver(r, "solver_umfpack", &c->direct, err) && !c->iterative ? err->code : 0;
 }
 
 const pf_solver *linear_method(const linear *l, int method)

@@ -11,7 +11,7 @@ void gmres_multiply(const gmres *g, const double *x, double *y)
     const int64_t *row = g->a->row, *col = g->a->col;
     const double *value = g->a->value;
 
-#pragma omp parallel for num_threads(g->n_thread) schedule(static)
+#pragma omp parallel for num_threads(g->n_thread) if (row[g->a->n] >= VECTOR_THREADED) schedule(static)
     for (int64_t i = 0; i < g->a->n; i++) {
         double s = 0;
 

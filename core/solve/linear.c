@@ -57,15 +57,6 @@ static void level(void *linear_, double *x)
     unknowns_level(&l->rows, l->space, x);
 }
 
-/* The solver knows of this member, which early ones do not, and has it. */
-#define has(solver, member)                                                                                        \
-    ((solver)->size >= offsetof(pf_solver, member) + sizeof(solver)->member && (solver)->member)
-
-int linear_approximates(const pf_solver *s)
-{
-    return has(s, flags) && (s->flags & PF_SOLVER_APPROXIMATE);
-}
-
 static void multiply(void *linear_, const double *x, double *y)
 {
     linear *l = linear_;
@@ -197,7 +188,7 @@ static void prepare(linear *l, double *b, int approximate)
 {
     l->krylov.project = approximate ? project : NULL;
     l->krylov.level = approximate ? level : NULL;
-    l->krylov.multiply = approximate && has(linear_method(l, l->at), multiply) ? multiply : NULL;
+    l->krylov.multiply = approximate && LINEAR_HAS(linear_method(l, l->at), multiply) ? multiply : NULL;
     l->krylov.scale = approximate ? l->row_scale : NULL;
     if (!approximate)
         hold(l, b);
@@ -342,7 +333,7 @@ static int update(linear *l, error *err)
     const pf_solver *solver = linear_method(l, l->at);
     char why[400] = "";
     double t = clock_seconds();
-    int status = has(solver, update) ? solver->update(l->instance[l->at], &l->a, why, sizeof why) : 0;
+    int status = LINEAR_HAS(solver, update) ? solver->update(l->instance[l->at], &l->a, why, sizeof why) : 0;
 
     l->stats.factor_seconds += clock_seconds() - t;
     return status ? error_set(err, ERR_MEMORY, "linear solver %s: %s", solver->name, why) : 0;

@@ -88,8 +88,14 @@ int linear_move(linear *l, const body_points *now, error *err);
 const pf_solver *linear_solver(const linear *l); /* the one in use; NULL before it is chosen */
 void linear_destroy(linear *l);
 int linear_approximates(const pf_solver *s); /* PF_SOLVER_APPROXIMATE */
+/* The solvers there are: the one named, without "solver_"; NULL: a factorisation and one that iterates. */
+int linear_find(linear_choice *c, registry *r, const char *named, error *err);
 
 /* --- between the files of this folder --- */
+
+/* The solver knows of this member, which early ones do not, and has it. */
+#define LINEAR_HAS(solver, member)                                                                                 \
+    ((solver)->size >= offsetof(pf_solver, member) + sizeof(solver)->member && (solver)->member)
 
 /* A solution by the factors of before bodies have moved; *done = 0: it was none. */
 int moved_solve(linear *l, const double *b, double *x, double tol, int *done, error *err);

@@ -7,7 +7,10 @@
  * An iteration takes one residual and one matrix: the residual that the line search accepted is that of the next
  * iteration.  While the residuals, falling quadratically, promise that there will be one, a full step is tried with
  * residual and matrix at once; the last matrix, which nobody needs, is not formed.  If all terms are linear,
- * the first matrix serves to the end. */
+ * the first matrix serves to the end.
+ *
+ * Linear systems are solved with the factors of an earlier matrix where that pays, and as far as it serves
+ * (forcing.c). */
 #include "solve/solve.h"
 #include "solve/vector.h"
 
@@ -25,6 +28,8 @@
 /* A step that may be shorter is given up where three iterations, after some, do not make this of the residual. */
 #define SLOW 0.5
 enum { LEAST_TRIES = 5 };
+/* Norms of plain and of scaled residuals differ: more than this is left by the latter, and it is solved again. */
+#define LEFT_SCALED 10
 /* Where Newton's method stops early, a correction with the factors there are is tried from this many times what is
  * enough: it costs no matrix. */
 #define NEAR 50
@@ -45,6 +50,7 @@ typedef struct iterate {
     int linear;                            /* all terms are                                                 */
     double enough, near;                   /* residual to go on to; from which one correction is tried      */
     double length[NEWTON_MAX_ITERATIONS];  /* of the step from iterate k                                    */
+    double left;                           /* that the last linear solution may have                        */
     double inexact[NEWTON_MAX_ITERATIONS]; /* residual that its linear solution left, relative to that of k */
 } iterate;
 
@@ -156,30 +162,6 @@ static int need_matrix(iterate *it, int k, error *err)
     return 0;
 }
 
-/* s->step: Newton's. */
-static int correct(iterate *it, int k, error *err)
-{
-    newton_system *s = it->s;
-    newton_report *r = it->report;
-    int status;
-
-    vector_negative(s->space, s->residual, s->rhs);
-    TRY(gauge_tell(s, err));
-    if (it->solved)
-        linear_keep(&s->linear);
-    status = linear_solve(&s->linear, s->rhs, s->step, it->o->linear_tolerance, err);
-    it->solved = 1;
-    if (status && !explain_is_finite(s))
-        return explain_nan(s, it->time, it->x, err);
-    if (status && err->retry) {
-        /* what the equations determine may have converged; some unknowns they do not */
-        r->singular = 1;
-        r->converged = k > 0 && r->history[k] <= 100 * it->o->tolerance;
-        explain_singular(s, err);
-    }
-    return status;
-}
-
 /* What a step must lower: the norms of the fields together, but for those that wait (scale.c).  These depend on
  * fields that have not converged and that do not depend on them.  Their equations are still changing: a quantity
  * derived from a flow starts as 0 = 0, and every step towards the flow makes its residual grow.  It must not forbid
@@ -194,6 +176,51 @@ static double merit(const newton_system *s, const double *norm, uint32_t waits)
     return sqrt(sum);
 }
 
+/* s->step: Newton's, of a linear solution that leaves no more than it->left. */
+static int solve_step(iterate *it, int k, error *err)
+{
+    newton_system *s = it->s;
+    newton_report *r = it->report;
+    int status;
+
+    vector_negative(s->space, s->residual, s->rhs);
+    TRY(gauge_tell(s, err));
+    if (it->solved)
+        linear_keep(&s->linear);
+    status = linear_solve(&s->linear, s->rhs, s->step, it->left, err);
+    it->solved = 1;
+    if (status && !explain_is_finite(s))
+        return explain_nan(s, it->time, it->x, err);
+    if (status && err->retry) {
+        /* what the equations determine may have converged; some unknowns they do not */
+        r->singular = 1;
+        r->converged = k > 0 && r->history[k] <= 100 * it->o->tolerance;
+        explain_singular(s, err);
+    }
+    return status;
+}
+
+/* s->step: Newton's; scales with it; inexact[k]. */
+static int correct(iterate *it, int k, error *err)
+{
+    newton_system *s = it->s;
+    newton_report *r = it->report;
+    double norm[SPACE_MAX_FIELDS];
+
+    for (it->left = forcing(it->s, it->o, r, it->length, it->enough, k);;
+         it->left = fmin(0.1, it->left / it->inexact[k]) * it->left) {
+        TRY(solve_step(it, k, err));
+        scale_fields(s, it->x, s->step, it->scale);
+        if (!isfinite(scale_norms(s, it->scale, r->norm)))
+            return explain_nan(s, it->time, it->x, err);
+        scale_norms_free(s, s->linear.r, it->scale, norm);
+        it->inexact[k] = merit(s, norm, 0) / merit(s, r->norm, 0);
+        if (!(it->left > LINEAR_ACCEPT && it->inexact[k] > LEFT_SCALED * it->left &&
+              it->inexact[k] > FORCING_LEAST))
+            return 0;
+    }
+}
+
 /* Whether there will be an iteration after the one from k: by residuals that fall quadratically, at first by the
  * solve before.  Not after a step that had to be shortened: it may have to be again. */
 static int expects_more(const iterate *it, int k)
@@ -204,7 +231,7 @@ static int expects_more(const iterate *it, int k)
         return 0;
     if (k == 0)
         return it->s->last_iterations != 1;
-    return it->length[k - 1] == 1 && h[k] * (h[k] / h[k - 1]) * (h[k] / h[k - 1]) > it->enough;
+    return it->length[k - 1] == 1 && h[k] * fmax(pow(h[k] / h[k - 1], 2), it->inexact[k]) > it->enough;
 }
 
 /* One trial of the line search, at s->trial: *after = its merit, or NaN.  An error only if going on makes no sense.
@@ -271,14 +298,8 @@ static int advance(iterate *it, int k, error *err)
     newton_system *s = it->s;
     newton_report *r = it->report;
     uint32_t waits = scale_waiting(s, r->norm, it->o->tolerance);
-    double norm[SPACE_MAX_FIELDS];
     int changed = 0;
 
-    scale_fields(s, it->x, s->step, it->scale);
-    if (!isfinite(scale_norms(s, it->scale, r->norm)))
-        return explain_nan(s, it->time, it->x, err);
-    scale_norms_free(s, s->linear.r, it->scale, norm);
-    it->inexact[k] = merit(s, norm, 0) / merit(s, r->norm, 0);
     TRY(line_search(it, k, waits, err));
     if (it->length[k] == 0)
         return 0;
@@ -357,6 +378,8 @@ int newton_solve(newton_system *s, const newton_time *time, const newton_options
     for (int k = 0; !status && more; k++)
         status = iterate_once(&it, k, &more, err);
     s->last_iterations = report->iterations;
+    if (report->iterations > 0 && report->converged)
+        s->last_fall = fmin(1, report->history[1] / report->history[0]);
     report->evaluations = s->evaluations - evaluations;
     report->matrices = s->matrices - matrices;
     if (status && err->retry) {
@@ -364,7 +387,7 @@ int newton_solve(newton_system *s, const newton_time *time, const newton_options
         return 0;
     }
     TRY(status);
-    observe_order(report);
+    observe_order(report, it.inexact);
     if (!s->gauge.approximate)
         observe_linear(report, it.length, it.inexact);
     return 0;

@@ -9,15 +9,24 @@
 #define MOST  1e-2
 #define LEAST 1e-12
 
-void observe_order(newton_report *r)
+/* A residual that says nothing. */
+#define ROUND_OFF 1e-14
+
+/* Whether the residual at k is what the step left, and not round-off or what its linear solution left. */
+static int shows_order(const newton_report *r, const double *inexact, int k)
 {
+    return r->history[k] >= ROUND_OFF && r->history[k] > 1.5 * inexact[k - 1] * r->history[k - 1];
+}
+
+void observe_order(newton_report *r, const double *inexact)
+{
+    const double *h = r->history;
     int k = r->iterations;
 
-    while (k > 1 && r->history[k] < 1e-14)
+    while (k >= 2 && !(shows_order(r, inexact, k) && shows_order(r, inexact, k - 1) && h[k - 1] < h[k - 2]))
         k--;
-    r->ratio = k >= 1 && r->history[k - 1] > 0 ? r->history[k] / (r->history[k - 1] * r->history[k - 1]) : 0;
-    if (k >= 2 && r->history[k - 1] < r->history[k - 2])
-        r->order = log(r->history[k] / r->history[k - 1]) / log(r->history[k - 1] / r->history[k - 2]);
+    r->order = k >= 2 ? log(h[k] / h[k - 1]) / log(h[k - 1] / h[k - 2]) : 0;
+    r->ratio = k >= 2 ? h[k] / (h[k - 1] * h[k - 1]) : 0;
 }
 
 /* With the true matrix Newton's method ends with order two.  Three orders near one in a row, up to the end, mean

@@ -25,72 +25,95 @@ static int is_dummy(const newton_system *s, int64_t i)
     return s->assembly.idle[d] || (s->gauge.free[f] && s->gauge.pin[f] == i);
 }
 
-/* might[i]: what the row would make of its unknown if nothing balanced it, 0 where the diagonal all but vanishes;
- * size [n_free] of the unknowns. */
-static void might_be(const newton_system *s, const double *size, double *might)
+/* What the rows of some fields (NULL: of all) add up with these sizes of the unknowns: row[i] = (|J| size)_i, 0 for
+ * dummies (NULL: not wanted), and might[i], what the row would make of its unknown if nothing balanced it, 0 where
+ * the diagonal all but vanishes. */
+static void add_up(const newton_system *s, const int *of, const double *size, double *might, double *row)
 {
     const space *sp = s->space;
     const double *a = s->linear.value;
 
+#pragma omp parallel for num_threads(s->assembly.n_thread) if (sp->row[sp->n_free] >= VECTOR_THREADED)             \
+    schedule(static)
     for (int64_t i = 0; i < sp->n_free; i++) {
-        double sum = fabs(s->residual[sp->dof_of[i]]), diagonal = 0, largest = 0;
+        const int64_t end = sp->row[i + 1], d = sp->dof_of[i];
+        double sum = 0, diagonal = 0, largest = 0;
 
-        for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++) {
+        if (of && !of[sp->dof_field[d]])
+            continue;
+        for (int64_t k = sp->row[i]; k < end; k++) {
             double v = fabs(a[k]);
 
             sum += v * size[sp->col[k]];
             largest = v > largest ? v : largest;
             diagonal = sp->col[k] == i ? v : diagonal;
         }
-        might[i] = diagonal > 1e-8 * largest ? sum / diagonal : 0;
+        might[i] = diagonal > 1e-8 * largest ? (sum + fabs(s->residual[d])) / diagonal : 0;
+        if (row)
+            row[i] = is_dummy(s, i) ? 0 : sum;
     }
 }
 
-/* Adds to the sizes of unknowns what they might be if their field vanishes, and a step; none counts for less than
- * the mean of its field. */
-static void enlarge(newton_system *s, const double *might, const double *step, double *size)
+/* Sizes with a step, and with what they might be where that is not NULL and their field vanishes; none counts for
+ * less than the mean of its field. */
+static void enlarge(const newton_system *s, const double *size, const double *step, const double *might,
+                    const int *vanishes, double *grown)
 {
     const space *sp = s->space;
-    double most[SPACE_MAX_FIELDS], most_might[SPACE_MAX_FIELDS], mean[SPACE_MAX_FIELDS];
+    double mean[SPACE_MAX_FIELDS];
     int64_t n[SPACE_MAX_FIELDS];
+
+    for (int64_t i = 0; i < sp->n_free; i++)
+        grown[i] =
+            size[i] + (step ? fabs(step[i]) : 0) + (might && vanishes[sp->dof_field[sp->dof_of[i]]] ? might[i] : 0);
+    vector_count(sp, n);
+    vector_squares_free(sp, grown, mean);
+    for (int f = 0; f < sp->n_field; f++)
+        mean[f] = n[f] ? sqrt(mean[f] / (double)n[f]) : 0;
+    for (int64_t i = 0; i < sp->n_free; i++)
+        grown[i] = fmax(grown[i], mean[sp->dof_field[sp->dof_of[i]]]);
+}
+
+/* Fields below what they might be, to round-off; how many. */
+static int find_below(const space *sp, const double *size, const double *might, int *below)
+{
+    double most[SPACE_MAX_FIELDS], most_might[SPACE_MAX_FIELDS];
+    int n = 0;
 
     vector_largest_free(sp, size, most);
     vector_largest_free(sp, might, most_might);
-    for (int64_t i = 0; i < sp->n_free; i++) {
-        int f = sp->dof_field[sp->dof_of[i]];
-
-        size[i] += (most[f] < VANISHES * most_might[f] ? might[i] : 0) + (step ? fabs(step[i]) : 0);
-    }
-    vector_count(sp, n);
-    vector_squares_free(sp, size, mean);
     for (int f = 0; f < sp->n_field; f++) {
-        s->vanishes[f] = most[f] < VANISHES * most_might[f] || most[f] == 0;
-        mean[f] = n[f] ? sqrt(mean[f] / (double)n[f]) : 0;
+        below[f] = most[f] < VANISHES * most_might[f];
+        n += below[f];
     }
-    for (int64_t i = 0; i < sp->n_free; i++)
-        size[i] = fmax(size[i], mean[sp->dof_field[sp->dof_of[i]]]);
+    return n;
 }
 
+/* As a rule one pass over the matrix: sizes with the step are larger, so a field that is not below what it might be
+ * by them is not by those without. */
 void scale_fields(newton_system *s, const double *x, const double *step, double *scale)
 {
     const space *sp = s->space;
-    const double *a = s->linear.value;
-    double *size = s->scale, *row = s->work;
+    double *size = s->scale, *grown = s->trial, *might = s->rhs, *row = s->work, most[SPACE_MAX_FIELDS];
+    int below[SPACE_MAX_FIELDS];
 
     for (int64_t i = 0; i < sp->n_free; i++)
         size[i] = fabs(x[sp->dof_of[i]]);
-    might_be(s, size, row);
-    enlarge(s, row, step, size);
-    for (int64_t i = 0; i < sp->n_free; i++) {
-        double sum = 0;
-
-        for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++)
-            sum += fabs(a[k]) * size[sp->col[k]];
-        row[i] = is_dummy(s, i) ? 0 : sum;
+    enlarge(s, size, step, NULL, NULL, grown);
+    add_up(s, NULL, grown, might, row);
+    if (find_below(sp, size, might, below)) {
+        add_up(s, below, size, might, NULL);
+        if (find_below(sp, size, might, below)) {
+            enlarge(s, size, step, might, below, grown);
+            add_up(s, NULL, grown, might, row);
+        }
     }
+    vector_largest_free(sp, size, most);
     vector_squares_free(sp, row, scale);
-    for (int f = 0; f < sp->n_field; f++)
+    for (int f = 0; f < sp->n_field; f++) {
+        s->vanishes[f] = below[f] || most[f] == 0;
         scale[f] = sqrt(scale[f]);
+    }
 }
 
 /* From the squares of a field's rows to its norm; what is not finite stays NaN, so that it cannot pass for small.

@@ -12,9 +12,11 @@
 /* --- fields that are fixed up to a constant (gauge.c) --- */
 
 typedef struct gauge {
-    double tolerance;           /* of the null vector, relative; 0: round-off       */
-    int free[SPACE_MAX_FIELDS]; /* the field has a free constant                    */
-    int approximate;            /* one that is so within the tolerance only         */
+    int sharp;                      /* cells are cut: their quadrature is not exact     */
+    int free[SPACE_MAX_FIELDS];     /* the field has a free constant                    */
+    int approximate;                /* one that is so to the quadrature of cut cells    */
+    double doubt[SPACE_MAX_FIELDS]; /* not 0: taken for none, with this defect, near bodies only */
+    uint8_t *near;                  /* [n_carrier] of cells near bodies                          */
     /* [n_dof] Integral of each basis function over the fluid, of the placement of the last evaluation; NULL:
      * `whole`, over whole cells. */
     const double *weight[SPACE_MAX_FIELDS];
@@ -34,7 +36,7 @@ typedef struct newton_options {
                   * none is */
     int max_iterations;
     int hurry;               /* a step in time, which may be shorter: gives up where the residual hardly falls */
-    double linear_tolerance; /* of GMRES; 0: factor every matrix  */
+    double linear_tolerance; /* what GMRES may leave at most; 0: factor every matrix */
 } newton_options;
 
 typedef struct newton_report {
@@ -45,8 +47,8 @@ typedef struct newton_report {
     int64_t evaluations, matrices;             /* of the residual; those of them with the matrix */
     double norm[SPACE_MAX_FIELDS];             /* scaled residual of each field, last  */
     double history[NEWTON_MAX_ITERATIONS + 1]; /* largest of them, per iteration        */
-    double ratio;                              /* r_{k+1} / r_k^2 of the last iterations */
-    double order;                              /* observed order of convergence         */
+    double order;                              /* of convergence, by the last residuals that show it; 0: none do */
+    double ratio;                              /* r_{k+1} / r_k^2 of the same           */
     char why[600];                             /* if it did not converge                */
 } newton_report;
 
@@ -63,7 +65,8 @@ typedef struct newton_system {
     double *trial, *rhs, *scale, *work; /* [n_dof] room */
     double assemble_seconds;
     int64_t evaluations, matrices;      /* since it was created, see newton_report */
-    int last_iterations;                /* of the last solve */
+    int last_iterations;                /* of the last solve ... */
+    double last_fall;                   /* ... and the fall of the residual in its first; 1 before any */
     int vanishes[SPACE_MAX_FIELDS];     /* the field is zero but for round-off */
     uint32_t coupled[SPACE_MAX_FIELDS]; /* bit g: equations of the field contain field g */
     const volatile sig_atomic_t *stop;  /* not NULL and not 0: end soon */
@@ -128,8 +131,16 @@ double scale_change(const newton_system *s, const double *x, double length);
 /* Bit f: the equations of field f depend on a field that has not converged and that does not depend on f. */
 uint32_t scale_waiting(const newton_system *s, const double *norm, double tolerance);
 
-/* observe.c.  Order and ratio at the last iteration that is above round-off. */
-void observe_order(newton_report *r);
+/* forcing.c.  Relative residual that the linear solution at iterate k may leave, of a history up to there, the
+ * lengths of the steps and the residual that is small enough; not less than FORCING_LEAST, as one more iteration
+ * costs less than that, but for a smaller linear_tolerance. */
+double forcing(const newton_system *s, const newton_options *o, const newton_report *r, const double *length,
+               double enough, int k);
+#define FORCING_LEAST 1e-6
+
+/* observe.c.  Order and ratio at the last iteration that is above round-off, and above what linear solutions
+ * left. */
+void observe_order(newton_report *r, const double *inexact);
 /* Whether it was one, as with a wrong matrix; not where a constant is free only nearly.  Of each step its length,
  * and the part of the residual that its linear solution left. */
 void observe_linear(newton_report *r, const double *length, const double *inexact);

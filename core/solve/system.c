@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 
+#include <omp.h>
 #include <string.h>
 
 _Static_assert(SPACE_MAX_FIELDS <= 32, "newton_system.coupled has a bit per field");
@@ -24,6 +25,8 @@ int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_
 {
     memset(s, 0, sizeof *s);
     s->space = sp;
+    s->last_fall = 1;
+    omp_set_num_threads(n_thread); /* of this thread's loops over vectors, which know of no system */
     TRY(assembly_create(&s->assembly, sp, spec, n_spec, n_thread, err));
     TRY(linear_create(&s->linear, solvers, sp, n_thread, err));
     ARENA_NEW(&s->memory, s->residual, sp->n_dof, err);

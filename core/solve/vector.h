@@ -4,7 +4,8 @@
  *
  * A "dof" vector has an entry for every unknown [n_dof], a "free" vector one for every row of the matrix
  * [n_free] (space.h).  Where unknowns are spread over processes these sums become reductions; what calls
- * them need not know.  They add in the order of the numbering, so that a run gives the same bits every time. */
+ * them need not know.  They add in a fixed order, whatever the number of threads, so that a run gives the same bits
+ * every time. */
 #ifndef SOLVE_VECTOR_H
 #define SOLVE_VECTOR_H
 
@@ -12,9 +13,12 @@
 
 #include <math.h>
 
+/* Entries of a vector or of a matrix from which threads are worth their start. */
+#define VECTOR_THREADED (1 << 17)
+
 /* --- plain vectors of n entries --- */
 
-double vector_dot(int64_t n, const double *a, const double *b);
+double vector_dot(int64_t n, const double *restrict a, const double *restrict b);
 double vector_norm(int64_t n, const double *a);
 void vector_divide(int64_t n, double c, const double *a, double *y); /* y = a / c       */
 void vector_add(int64_t n, double c, const double *a, double *y);    /* y = y + c a     */

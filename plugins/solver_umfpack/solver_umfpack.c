@@ -60,6 +60,13 @@ static int blas_threads(int n)
     return before;
 }
 
+/* Symmetric graph of the nodes, as METIS takes it. */
+typedef struct node_graph {
+    idx_t n, *start, *to, *weight;
+    idx_t *perm;   /* [2 n] nodes in the order of elimination, and the inverse */
+    idx_t *vertex; /* of each unknown                                          */
+} node_graph;
+
 /* METIS_NodeND that leaves handlers of signals as they were.
  *
  * While it runs, METIS has its own for SIGTERM and SIGABRT (GKlib, gk_sigtrap), by which it also ends itself where
@@ -69,16 +76,19 @@ static int blas_threads(int n)
  * program should block SIGTERM in all its threads and take it in one that waits for it; plugflow does
  * (core/cli/signals.c). To block it here is no help: then it comes to another thread, in which METIS has nowhere to
  * jump to. */
-static int order(idx_t n, idx_t *start, idx_t *to, idx_t *perm, idx_t *inverse)
+static int dissect(node_graph *g)
 {
     struct sigaction on_term, on_abort;
     sigset_t blocked;
+    idx_t option[METIS_NOPTIONS];
     int status;
 
+    METIS_SetDefaultOptions(option);
+    option[METIS_OPTION_NSEPS] = 2; /* the better one of two separators: fill differs by less from case to case */
     sigaction(SIGTERM, NULL, &on_term);
     sigaction(SIGABRT, NULL, &on_abort);
     pthread_sigmask(SIG_SETMASK, NULL, &blocked);
-    status = METIS_NodeND(&n, start, to, NULL, NULL, perm, inverse);
+    status = METIS_NodeND(&g->n, g->start, g->to, g->weight, option, g->perm, g->perm + g->n);
     sigaction(SIGTERM, &on_term, NULL);
     sigaction(SIGABRT, &on_abort, NULL);
     pthread_sigmask(SIG_SETMASK, &blocked, NULL);
@@ -87,30 +97,84 @@ static int order(idx_t n, idx_t *start, idx_t *to, idx_t *perm, idx_t *inverse)
     return status == METIS_OK;
 }
 
-/* Order of the unknowns by METIS on the graph of the matrix, whose pattern is symmetric; perm[k] = k-th to
- * eliminate. Returns 0 if METIS finds none: no memory, too many entries for its integers. */
+static void free_graph(node_graph *g)
+{
+    free(g->start);
+    free(g->to);
+    free(g->weight);
+    free(g->perm);
+    free(g->vertex);
+}
+
+/* Room for the graph, and which vertex each unknown is part of.  Edges are at most pairs of a node and a column of
+ * one of its rows, taken once per node. */
+static int open_graph(const pf_csr *a, node_graph *g)
+{
+    int64_t edges = 0;
+
+    for (int64_t v = 0; v < a->n_node; v++) {
+        int64_t most = 0;
+
+        for (int64_t r = a->node[v]; r < a->node[v + 1]; r++)
+            most += a->row[r + 1] - a->row[r];
+        edges += most < a->n_node ? most : a->n_node;
+    }
+    if (a->n > IDX_MAX || edges > IDX_MAX)
+        return 0;
+    g->n = (idx_t)a->n_node;
+    g->start = malloc(((size_t)g->n + 1) * sizeof *g->start);
+    g->weight = malloc((size_t)g->n * sizeof *g->weight);
+    g->perm = malloc(2 * (size_t)g->n * sizeof *g->perm);
+    g->to = malloc((size_t)edges * sizeof *g->to);
+    g->vertex = malloc((size_t)a->n * sizeof *g->vertex);
+    if (!g->start || !g->weight || !g->perm || !g->to || !g->vertex)
+        return 0;
+    for (idx_t v = 0; v < g->n; v++)
+        for (int64_t r = a->node[v]; r < a->node[v + 1]; r++)
+            g->vertex[r] = v;
+    return 1;
+}
+
+/* Two nodes are neighbours if any of their unknowns are; a node weighs as many unknowns as it has. */
+static void fill_graph(const pf_csr *a, node_graph *g)
+{
+    idx_t *seen = g->perm, edges = 0; /* last vertex that has this one as a neighbour */
+
+    for (idx_t v = 0; v < g->n; v++)
+        seen[v] = -1;
+    for (idx_t v = 0; v < g->n; v++) {
+        g->start[v] = edges;
+        g->weight[v] = (idx_t)(a->node[v + 1] - a->node[v]);
+        seen[v] = v;
+        for (int64_t k = a->row[a->node[v]]; k < a->row[a->node[v + 1]]; k++) {
+            idx_t w = g->vertex[a->col[k]];
+
+            if (seen[w] != v)
+                g->to[edges++] = w;
+            seen[w] = v;
+        }
+    }
+    g->start[g->n] = edges;
+}
+
+/* Order of the unknowns by METIS on the graph of the nodes; perm[k] = k-th to eliminate.  That of the unknowns has
+ * the same orders, as all unknowns of a node have the same neighbours, but is several times larger.  Returns 0 if
+ * METIS finds none: no memory, too many entries for its integers. */
 static int order_graph(const pf_csr *a, SuiteSparse_long *perm)
 {
-    idx_t *start = malloc(((size_t)a->n + 1) * sizeof *start),
-          *order_of = malloc(2 * (size_t)a->n * sizeof *order_of);
-    idx_t *to = malloc((size_t)a->row[a->n] * sizeof *to), edges = 0;
-    int ok = start && order_of && to && a->row[a->n] <= IDX_MAX;
+    node_graph g = {0};
+    int ok = open_graph(a, &g);
 
-    for (int64_t r = 0; ok && r < a->n; r++) {
-        order_of[r] = (idx_t)r;
-        start[r] = edges;
-        for (int64_t k = a->row[r]; k < a->row[r + 1]; k++)
-            if (a->col[k] != r)
-                to[edges++] = (idx_t)a->col[k];
+    if (ok) {
+        fill_graph(a, &g);
+        for (idx_t v = 0; v < g.n; v++)
+            g.perm[v] = v;
+        ok = g.start[g.n] == 0 || dissect(&g);
     }
-    if (ok)
-        start[a->n] = edges;
-    ok = ok && (edges == 0 || order((idx_t)a->n, start, to, order_of, order_of + a->n));
-    for (int64_t k = 0; ok && k < a->n; k++)
-        perm[k] = order_of[k];
-    free(start);
-    free(order_of);
-    free(to);
+    for (int64_t v = 0, k = 0; ok && v < g.n; v++)
+        for (int64_t r = a->node[g.perm[v]]; r < a->node[g.perm[v] + 1]; r++)
+            perm[k++] = r;
+    free_graph(&g);
     return ok;
 }
 

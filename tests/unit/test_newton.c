@@ -71,6 +71,82 @@ static void a_false_flag_linear_costs_no_more_than_time(void **state)
     assert_true(f.report.iterations < 12);
 }
 
+/* --- linear systems solved as far as it serves --- */
+
+static const newton_options inexact = {.tolerance = 1e-11, .max_iterations = 25, .linear_tolerance = 0.1};
+
+/* A different value at each place, so that no two matrices are multiples of each other. */
+static void set_unequal(double about)
+{
+    for (int64_t d = 0; d < f.s.n_dof; d++)
+        f.x[d] = about + 0.1 * (double)d;
+}
+
+/* Factors of one matrix that are dear enough to be kept for good. */
+static void make_with_factors(double wrong)
+{
+    SMALL_MAKE(&f, NULL, 0, "a", &small_cubic);
+    f.number[0].wrong = wrong;
+    small_set(&f, 1.1);
+    assert_int_equal(small_solve(&f, &inexact), 0);
+    f.sys.linear.stats.cost.flops = 1e9 * f.sys.linear.stats.cost.fill;
+    f.sys.linear.stats.factorisations = 0;
+    f.sys.linear.max_iterations = 12;
+}
+
+static void old_factors_lead_to_the_same_solution(void **state)
+{
+    (void)state;
+    make_with_factors(1);
+    set_unequal(1);
+    assert_int_equal(small_solve(&f, &inexact), 0);
+    assert_true(f.report.converged && !f.report.linear_only);
+    assert_field(&f, "a", 1);
+    assert_int_equal(f.sys.linear.stats.factorisations, 0);
+    assert_true(f.sys.linear.stats.gmres_iterations > f.report.iterations);
+    assert_true(f.report.order == 0 || f.report.order > 1.7);
+}
+
+static void a_wrong_jacobian_is_told_with_old_factors(void **state)
+{
+    static const double wrong[] = {1, 0.8, 1.3};
+
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        if (i)
+            small_destroy(&f);
+        make_with_factors(wrong[i]);
+        set_unequal(2);
+        assert_int_equal(small_solve(&f, &inexact), 0);
+        assert_true(f.report.converged);
+        if (f.report.linear_only != (wrong[i] != 1))
+            fail_msg("Jacobian times %g: order %g, linear_only %d", wrong[i], f.report.order, f.report.linear_only);
+    }
+}
+
+static void linear_solutions_leave_a_part_of_what_the_step_leaves(void **state)
+{
+    newton_report r = {.history = {1, 1e-1, 1e-3, 1e-7, 1e-9}};
+    const double length[] = {1, 1, 1, 0.5};
+    newton_options o = {.linear_tolerance = 0.1};
+
+    (void)state;
+    SMALL_MAKE(&f, NULL, 0, "a", &small_cubic);
+    assert_near(forcing(&f.sys, &o, &r, length, 1e-11, 0), 0.05, 1e-15); /* nothing is known */
+    f.sys.last_fall = 1e-2;
+    assert_near(forcing(&f.sys, &o, &r, length, 1e-11, 0), 5e-4, 1e-15);
+    assert_near(forcing(&f.sys, &o, &r, length, 1e-2, 0), 3e-3, 1e-15); /* enough */
+    assert_near(forcing(&f.sys, &o, &r, length, 1e-11, 1), 1e-2, 1e-15);
+    assert_near(forcing(&f.sys, &o, &r, length, 1e-11, 2), 5e-6, 1e-15); /* 0.05 (1e-2)^2 */
+    assert_near(forcing(&f.sys, &o, &r, length, 1e-11, 3), 3e-5, 1e-15); /* enough */
+    assert_near(forcing(&f.sys, &o, &r, length, 1e-14, 3), 1e-6, 1e-15); /* the least */
+    assert_near(forcing(&f.sys, &o, &r, length, 1e-14, 4), 0.05, 1e-15); /* after half a step */
+    o.linear_tolerance = 1e-8;
+    assert_near(forcing(&f.sys, &o, &r, length, 1e-11, 1), 1e-8, 1e-15);
+    o.linear_tolerance = 0;
+    assert_near(forcing(&f.sys, &o, &r, length, 1e-11, 1), 0, 0);
+}
+
 /* --- the way to the solution --- */
 
 static void a_step_too_far_is_shortened(void **state)
@@ -228,6 +304,9 @@ int main(void)
         cmocka_unit_test_teardown(an_iteration_takes_one_evaluation, teardown),
         cmocka_unit_test_teardown(a_linear_problem_is_factored_once, teardown),
         cmocka_unit_test_teardown(a_false_flag_linear_costs_no_more_than_time, teardown),
+        cmocka_unit_test_teardown(old_factors_lead_to_the_same_solution, teardown),
+        cmocka_unit_test_teardown(a_wrong_jacobian_is_told_with_old_factors, teardown),
+        cmocka_unit_test_teardown(linear_solutions_leave_a_part_of_what_the_step_leaves, teardown),
         cmocka_unit_test_teardown(a_step_too_far_is_shortened, teardown),
         cmocka_unit_test_teardown(a_field_that_nothing_depends_on_does_not_veto_a_step, teardown),
         cmocka_unit_test_teardown(a_field_that_nothing_depends_on_does_not_carry_a_step, teardown),

@@ -199,11 +199,59 @@ static void threads_of_blas_are_as_before_after_every_call(void **state)
     free(b);
 }
 
+/* Every entry of a matrix becomes a block of so many rows and columns: as many unknowns at each node. */
+static pf_csr with_blocks(const pf_csr *a, int block)
+{
+    int64_t *row = malloc((size_t)(block * a->n + 1) * sizeof *row),
+            *node = malloc((size_t)(a->n + 1) * sizeof *node);
+    int64_t *col = malloc((size_t)(block * block * a->row[a->n]) * sizeof *col), k = 0;
+
+    assert_true(row && col && node);
+    for (int64_t v = 0; v < a->n; v++) {
+        node[v] = block * v;
+        for (int i = 0; i < block; i++) {
+            row[block * v + i] = k;
+            for (int64_t e = a->row[v]; e < a->row[v + 1]; e++)
+                for (int j = 0; j < block; j++)
+                    col[k++] = block * a->col[e] + j;
+        }
+    }
+    row[block * a->n] = k;
+    node[a->n] = block * a->n;
+    return (pf_csr){.n = block * a->n, .row = row, .col = col, .n_node = a->n, .node = node};
+}
+
+/* Nodes are eliminated whole: their blocks fill as single entries do. */
+static void unknowns_of_a_node_are_ordered_as_one(void **state)
+{
+    pf_csr single = grid;
+    double fill = 0;
+
+    (void)state;
+    for (int block = 1; block <= 4; block++) {
+        pf_solver_cost cost;
+        void *self;
+
+        grid = with_blocks(&single, block);
+        cost = analyze(&self);
+        solver->destroy(self);
+        if (block == 1)
+            fill = cost.fill;
+        if (!(fabs(cost.fill / (block * block * fill) - 1) < 0.03))
+            fail_msg("%g entries, with %d unknowns at each node %g", fill, block, cost.fill);
+        free((void *)grid.row);
+        free((void *)grid.col);
+        free((void *)grid.node);
+    }
+    grid = single;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(handlers_of_signals_are_as_before_after_the_analysis),
         cmocka_unit_test(signal_during_the_analysis_is_still_there_after_it_and_the_order_is_the_same),
+        cmocka_unit_test(unknowns_of_a_node_are_ordered_as_one),
         cmocka_unit_test(threads_of_blas_are_as_before_after_every_call),
     };
 
