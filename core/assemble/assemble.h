@@ -25,7 +25,8 @@ enum {
     ASSEMBLE_PAD = 3,
     SURFACE_POINTS = 16,
     ASSEMBLE_CELL_DEGREE = 5,
-    ELEMENT_MOST_ENTRIES = 512 /* of an element vector */
+    SLAB_ROUNDS = 2,           /* of slabs that run at once */
+    ELEMENT_MOST_ENTRIES = 1024 /* of an element vector */
 };
 
 /* Two bodies near each other, or a body and a wall. */
@@ -140,7 +141,7 @@ typedef struct assembly_class {
     int32_t *source;       /* of each item: its number where items come from, as in body_points */
     int n_share;
     body_share *share;
-    int32_t *share_of;      /* [n_slab][n_body] 1 + number of the share, 0: adds directly; NULL: no shares */
+    int32_t *share_of;      /* [slab][n_body] 1 + number of the share, 0: adds directly; NULL: no shares */
     int follows;            /* items come with the bodies */
     const double *weight;   /* of such items: reference weights, [n_item][n_q]                 */
     const double (*ref)[3]; /* of such items: [n_item][n_q], see body_points */
@@ -148,9 +149,8 @@ typedef struct assembly_class {
     const uint8_t *off; /* PF_FLUID, whole cells: [n_cell] 1: this cell is none            */
     int64_t n_batch;
     int64_t *batch; /* first item of each batch, [n_batch + 1]                  */
-    int n_slab;
-    int64_t *slab;        /* first batch of each slab, [n_slab + 2]; the last range is
-                             the interface, done after the slabs by one thread         */
+    int n_slab;     /* in each round */
+    int64_t *slab;  /* first batch of each slab, [SLAB_ROUNDS * n_slab + 2]; the last range is done by one thread */
     int64_t *first_fresh; /* of each batch, [n_batch + 1], in: */
     int32_t *fresh;       /* nodes that no earlier batch has; NULL: not all nodes of the mesh are in some batch */
     int n_q;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The loop over batches.  Slabs of cells go to threads; cells that touch two slabs come last, on one thread.  No
- * atomics: the order of additions depends on nothing but the number of threads. */
+ * The loop over batches.  Slabs of cells go to threads; what is between slabs comes later (slabs.c).  No atomics:
+ * the order of additions depends on nothing but the number of threads. */
 #include "assemble/batch.h"
 
 #include <string.h>
@@ -73,27 +73,35 @@ static void number_columns(assembly *a)
     }
 }
 
+/* Slabs from `first` on, n of them at once. */
+static int run_slabs(assembly *a, const assembly_class *c, const assembly_state *s, int first, int n,
+                     double *residual, double *value, int diagnose, error *err)
+{
+    if (c->slab[first] == c->slab[first + n])
+        return 0;
+    for (int k = 0; k < n; k++)
+        a->work[k].failed_batch = -1;
+#pragma omp parallel for num_threads(n) schedule(static, 1)
+    for (int k = 0; k < n; k++)
+        for (int64_t b = c->slab[first + k]; b < c->slab[first + k + 1]; b++)
+            if (run_batch(a, c, s, b, first + k, diagnose, &a->work[k], residual, value))
+                break;
+    for (int k = 0; k < n; k++)
+        if (a->work[k].failed_batch >= 0)
+            return report(&a->work[k], c, err);
+    return 0;
+}
+
 static int run_class(assembly *a, assembly_class *c, const assembly_state *s, double *residual, double *value,
                      int diagnose, error *err)
 {
     TRY(inputs_functions(a, c, &a->work[0], s->t, err));
     TRY(history_update(a, c, s->frame, err));
     TRY(shares_clear(a, c, value != NULL, err));
-    for (int i = 0; i < a->n_thread; i++)
-        a->work[i].failed_batch = -1;
-#pragma omp parallel for num_threads(c->n_slab) schedule(static, 1)
-    for (int slab = 0; slab < c->n_slab; slab++)
-        for (int64_t b = c->slab[slab]; b < c->slab[slab + 1]; b++)
-            if (run_batch(a, c, s, b, slab, diagnose, &a->work[slab], residual, value))
-                break;
-    for (int slab = 0; slab < c->n_slab; slab++)
-        if (a->work[slab].failed_batch >= 0)
-            return report(&a->work[slab], c, err);
+    for (int round = 0; round < SLAB_ROUNDS; round++)
+        TRY(run_slabs(a, c, s, round * c->n_slab, c->n_slab, residual, value, diagnose, err));
     shares_add(a, c, residual, value);
-    for (int64_t b = c->slab[c->n_slab]; b < c->n_batch; b++)
-        if (run_batch(a, c, s, b, c->n_slab, diagnose, &a->work[0], residual, value))
-            return report(&a->work[0], c, err);
-    return 0;
+    return run_slabs(a, c, s, SLAB_ROUNDS * c->n_slab, 1, residual, value, diagnose, err);
 }
 
 int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err)

@@ -88,6 +88,12 @@ v8 laplacian_apply(const laplacian *p, int dim, const double dn[3], const double
 /* Component (a, b) of pf_batch.metric; inv = dxi/dx. */
 v8 metric_of(int dim, int simplex, v8 inv[3][3], int a, int b);
 void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
+/* On pieces of surface (surface.c). */
+void geometry_surface(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
+/* Places of the nodes of the cells of a batch, to w->x_node. */
+void geometry_nodes(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
+/* Of a batch of boxes, in each direction. */
+void boxes_sides(const assembly *a, const assembly_class *c, int64_t batch, v8 *middle, v8 *half);
 /* inv = dxi/dx of j = dx/dxi; returns the determinant of j. */
 v8 geometry_inverse(int dim, v8 j[3][3], v8 inv[3][3]);
 /* The same where there is a tensor rule (boxes.c): without bases, with w->boxes, w->scale or w->inverse. */

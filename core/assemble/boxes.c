@@ -27,27 +27,34 @@ v8 geometry_inverse(int dim, v8 j[3][3], v8 inv[3][3])
     return det;
 }
 
+void boxes_sides(const assembly *a, const assembly_class *c, int64_t batch, v8 *middle, v8 *half)
+{
+    const mesh *m = a->space->mesh;
+    int dim = m->dim, n = m->type->n_node;
+
+    for (int l = 0; l < 8; l++) {
+        const int32_t *node = m->cell + (int64_t)c->cell[assemble_item(c, batch, l)] * n;
+        const double *low = m->x + (int64_t)node[0] * dim, *high = m->x + (int64_t)node[n - 1] * dim;
+
+        for (int k = 0; k < dim; k++) {
+            middle[k][l] = 0.5 * (low[k] + high[k]);
+            half[k][l] = 0.5 * (high[k] - low[k]);
+        }
+    }
+}
+
 /* Places and weights; w->w: of the reference cell before. */
 static void points_of_boxes(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
 {
-    const mesh *m = a->space->mesh;
-    int dim = m->dim, nq = c->n_q, n = m->type->n_node;
-    v8 det = (v8){0} + 1;
+    int dim = a->space->mesh->dim, nq = c->n_q;
+    v8 det = (v8){0} + 1, middle[3], half[3];
 
+    boxes_sides(a, c, batch, middle, half);
     for (int k = 0; k < dim; k++) {
-        v8 middle, half;
-
-        for (int l = 0; l < 8; l++) {
-            const int32_t *node = m->cell + (int64_t)c->cell[assemble_item(c, batch, l)] * n;
-            double low = m->x[(int64_t)node[0] * dim + k], high = m->x[(int64_t)node[n - 1] * dim + k];
-
-            middle[l] = 0.5 * (low + high);
-            half[l] = 0.5 * (high - low);
-        }
-        w->scale[k] = 1 / half;
-        det *= half;
+        w->scale[k] = 1 / half[k];
+        det *= half[k];
         for (int q = 0; q < nq; q++)
-            w->x[k * nq + q] = middle + half * c->rule[0].x[q][k];
+            w->x[k * nq + q] = middle[k] + half[k] * c->rule[0].x[q][k];
     }
     for (int q = 0; q < nq; q++)
         w->w[q] *= det;

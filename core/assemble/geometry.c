@@ -101,113 +101,6 @@ static void points_of_pairs(const assembly *a, const assembly_class *c, int64_t 
     }
 }
 
-/* Places of the nodes of the cells of a batch. */
-static void take_nodes(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
-{
-    const mesh *m = a->space->mesh;
-    int dim = m->dim, n = m->type->n_node;
-
-    for (int l = 0; l < 8; l++) {
-        const int32_t *node = m->cell + (int64_t)c->cell[assemble_item(c, batch, l)] * n;
-
-        for (int i = 0; i < n; i++)
-            for (int k = 0; k < dim; k++)
-                w->x_node[k * n + i][l] = m->x[(int64_t)node[i] * dim + k];
-    }
-}
-
-/* Place of a point of a cell, and dxi/dx there. */
-static void map_point(const mesh *m, int64_t cell, const double *xi, double x[3], double inv[3][3])
-{
-    double j[3][3], det = mesh_place(m, cell, xi, x, j);
-
-    for (int b = 0; b < 3; b++)
-        for (int k = 0; k < 3; k++) /* j is the identity in the unused direction */
-            inv[b][k] = (j[(k + 1) % 3][(b + 1) % 3] * j[(k + 2) % 3][(b + 2) % 3] -
-                         j[(k + 1) % 3][(b + 2) % 3] * j[(k + 2) % 3][(b + 1) % 3]) /
-                        det;
-}
-
-/* Points that each item has of its own, on a piece of surface. */
-static void points_of_surface(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
-{
-    const mesh *m = a->space->mesh;
-    const fe_cell *type = m->type;
-    int dim = m->dim, nq = c->n_q;
-
-    for (int l = 0; l < 8; l++) {
-        int64_t item = assemble_item(c, batch, l), cell = c->cell[item], from = c->source[item];
-
-        for (int q = 0; q < nq; q++) {
-            const double *xi = c->ref[from * nq + q];
-            double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], x[3], inv[3][3];
-
-            map_point(m, cell, xi, x, inv);
-            w->w[q][l] = c->weight[from * nq + q];
-            w->h[q][l] = m->h[cell];
-            for (int k = 0; k < dim; k++) {
-                w->x[k * nq + q][l] = x[k];
-                w->normal[k * nq + q][l] = c->normal[from * nq + q][k];
-            }
-            for (int order = 0; order < 3; order++) {
-                int n_basis = c->order_used[order] ? fe_n_basis(type, order) : 0;
-
-                if (n_basis)
-                    fe_basis(type, order, xi, n, dn);
-                for (int i = 0; i < n_basis; i++) {
-                    w->basis[order][0][i * nq + q][l] = n[i];
-                    for (int k = 0; c->grad_used[order] && k < dim; k++)
-                        w->basis[order][k + 1][i * nq + q][l] =
-                            inv[0][k] * dn[i][0] + inv[1][k] * dn[i][1] + (dim == 3 ? inv[2][k] * dn[i][2] : 0);
-                }
-                for (int i = n_basis; n_basis && i < assemble_padded(n_basis); i++)
-                    for (int k = 0; k <= dim; k++)
-                        w->basis[order][k][i * nq + q][l] = 0;
-            }
-        }
-    }
-}
-
-/* What points_of_surface leaves to its end: Laplacians and metrics, lane by lane. */
-static void second_on_surface(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
-{
-    const mesh *m = a->space->mesh;
-    const fe_cell *type = m->type;
-    int dim = m->dim, nq = c->n_q;
-
-    take_nodes(a, c, batch, w);
-    for (int l = 0; l < 8; l++)
-        for (int q = 0; q < nq; q++) {
-            int64_t item = assemble_item(c, batch, l);
-            const double *xi = c->ref[c->source[item] * nq + q];
-            double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], d2n[FE_MAX_NODES][FE_SECOND], x[3], at[3][3];
-            v8 inv[3][3];
-            laplacian p;
-
-            /* All lanes as if they were at the point of this one, whose result alone is kept. */
-            map_point(m, c->cell[item], xi, x, at);
-            for (int k = 0; k < 9; k++)
-                inv[k / 3][k % 3] = (v8){0} + at[k / 3][k % 3];
-            for (int k = 0; c->any_metric && k < dim * dim; k++)
-                w->metric[k * nq + q][l] = metric_of(dim, type->simplex, inv, k / dim, k % dim)[l];
-            if (!c->any_laplace)
-                continue;
-            fe_basis_second(type, 2, xi, d2n);
-            p = laplacian_of(dim, type->n_node, w->x_node, (const double(*)[FE_SECOND])d2n, inv);
-            for (int order = 0; order < 3; order++) {
-                int n_basis = c->laplace_used[order] ? fe_n_basis(type, order) : 0;
-
-                if (n_basis) {
-                    fe_basis(type, order, xi, n, dn);
-                    fe_basis_second(type, order, xi, d2n);
-                }
-                for (int i = 0; n_basis && i < assemble_padded(n_basis); i++)
-                    w->basis[order][LAPLACE_ROW][i * nq + q][l] =
-                        i < n_basis ? laplacian_apply(&p, dim, dn[i], d2n[i])[l] : 0;
-            }
-        }
-}
-
 /* The root of a bad cell: its basis at the points of the bad one, with the opposite sign. */
 static void points_of_roots(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
 {
@@ -289,9 +182,7 @@ void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, 
         return;
     }
     if (c->where == PF_SURFACE) {
-        points_of_surface(a, c, batch, w);
-        if (c->any_laplace || c->any_metric)
-            second_on_surface(a, c, batch, w);
+        geometry_surface(a, c, batch, w);
         particle_slots(a, c, batch, w);
         return;
     }
@@ -301,7 +192,7 @@ void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, 
             particle_slots(a, c, batch, w);
         return;
     }
-    take_nodes(a, c, batch, w);
+    geometry_nodes(a, c, batch, w);
     for (int l = 0; l < 8; l++) {
         int64_t cell = c->cell[assemble_item(c, batch, l)];
 

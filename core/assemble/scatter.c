@@ -125,6 +125,7 @@ typedef struct lane {
     int joins; /* of the same group as the lane before, as are pieces of a surface in a cell: added to it */
     const int32_t *pair; /* of its group */
     int size, n_segment, n_run;
+    int alike; /* segments as those of the first lane */
     const run *runs;
     segment segment[MOST_SEGMENTS];
     run own[MOST_SEGMENTS];
@@ -144,10 +145,8 @@ static void take_runs(lane *lanes, int n_lane, int carrier)
         lane *k = &lanes[l];
         const lane *first = &lanes[0];
 
-        if (l && k->n_segment == first->n_segment && k->size == first->size &&
-            !memcmp(k->pair + carrier * k->size, first->pair + carrier * k->size,
-                    (size_t)k->size * sizeof *k->pair) &&
-            !memcmp(k->segment, first->segment, (size_t)k->n_segment * sizeof *k->segment)) {
+        if (k->alike && !memcmp(k->pair + carrier * k->size, first->pair + carrier * k->size,
+                                (size_t)k->size * sizeof *k->pair)) {
             k->runs = first->runs;
             k->n_run = first->n_run;
         } else {
@@ -177,8 +176,13 @@ static void scatter_rows(const assembly *a, const assembly_class *c, int64_t bat
     int of_body = s->field[f].support == PF_ON_PARTICLE;
     const int32_t *dof = c->dof + c->batch[batch] * p->n;
 
-    for (int l = 0; l < n_lane; l++)
-        lanes[l].n_segment = find_segments(a, p, dof + l * p->n, p->coupled[f], lanes[l].segment);
+    for (int l = 0; l < n_lane; l++) {
+        lane *k = &lanes[l];
+
+        k->n_segment = find_segments(a, p, dof + l * p->n, p->coupled[f], k->segment);
+        k->alike = l && k->n_segment == lanes[0].n_segment && k->size == lanes[0].size &&
+                   !memcmp(k->segment, lanes[0].segment, (size_t)k->n_segment * sizeof *k->segment);
+    }
     for (int r = 0; r < p->n; r++) {
         v8 row[PF_LANES * ELEMENT_MOST_ENTRIES / 8];
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Rows of bodies that several slabs add to.  The first slab at a body adds to the residual and the matrix
- * themselves, each later one to a copy of its own, zero at first; the copies are added in the order of the slabs.
+ * Rows of bodies that several slabs add to.  The first slab of a round at a body adds to the residual and the
+ * matrix themselves, each later one to a copy of its own, zero at first; the copies are added in the order of the
+ * slabs.
  */
 #include "assemble/batch.h"
 
@@ -19,9 +20,11 @@ int shares_find(assembly *a, assembly_class *c, arena *memory, error *err)
     if (!on_bodies || c->n_slab == 1)
         return 0;
     ARENA_NEW(memory, first, s->n_particle + 1, err);
-    ARENA_NEW(memory, c->share_of, (int64_t)c->n_slab * s->n_particle + 1, err);
-    ARENA_NEW(memory, c->share, (int64_t)c->n_slab * s->n_particle + 1, err);
-    for (int slab = 0; slab < c->n_slab; slab++)
+    ARENA_NEW(memory, c->share_of, (int64_t)SLAB_ROUNDS * c->n_slab * s->n_particle + 1, err);
+    ARENA_NEW(memory, c->share, (int64_t)SLAB_ROUNDS * c->n_slab * s->n_particle + 1, err);
+    for (int slab = 0; slab < SLAB_ROUNDS * c->n_slab; slab++) {
+        if (slab % c->n_slab == 0) /* another round */
+            memset(first, 0, (size_t)s->n_particle * sizeof *first);
         for (int64_t i = c->batch[c->slab[slab]]; i < c->batch[c->slab[slab + 1]]; i++) {
             int32_t body = s->attached_particle[c->group[i] - space_attached_group(s, 0)];
             int32_t *share = &c->share_of[(int64_t)slab * s->n_particle + body];
@@ -33,6 +36,7 @@ int shares_find(assembly *a, assembly_class *c, arena *memory, error *err)
             c->share[c->n_share++] = (body_share){.carrier = space_body_carrier(s, body)};
             *share = c->n_share;
         }
+    }
     return 0;
 }
 
@@ -66,7 +70,7 @@ const body_share *shares_at(const assembly *a, const assembly_class *c, int slab
     int64_t body;
     int32_t k;
 
-    if (!c->n_share || slab == c->n_slab)
+    if (!c->n_share || slab == SLAB_ROUNDS * c->n_slab)
         return NULL;
     body = s->attached_particle[c->group[item] - space_attached_group(s, 0)];
     k = c->share_of[(int64_t)slab * s->n_particle + body];

@@ -15,7 +15,7 @@ enum { LEAST_BATCHES = 8 }; /* a slab: fewer are not worth waiting for a thread 
 /* An item and its place in the order of the class. */
 typedef struct place {
     int64_t key, item;
-    int slab; /* n_slab: the interface */
+    int slab;
 } place;
 
 static int by_key(const void *a, const void *b)
@@ -32,21 +32,25 @@ static int by_slab(const void *a, const void *b)
     return p->slab != q->slab ? p->slab - q->slab : by_key(a, b);
 }
 
-/* Slabs of equal size along the order; then items at nodes of an earlier slab go to the interface. */
-static int assign(const assembly *a, const assembly_class *c, place *list, error *err)
+/* Splits the items of the list that have no slab yet (-1) into n equal ones along the order, numbered from `first`
+ * on. Items at nodes of an earlier one of these stay without.  owner: [n_node] room. */
+static void assign(const assembly *a, const assembly_class *c, place *list, int first, int n, uint16_t *owner)
 {
     const space *s = a->space;
-    int64_t per = (c->n_item + c->n_slab - 1) / c->n_slab;
-    arena scratch = {0};
-    uint16_t *owner;
+    int64_t left = 0, at = 0, per;
 
-    ARENA_NEW(&scratch, owner, s->mesh->n_node + 1, err);
+    for (int64_t i = 0; i < c->n_item; i++)
+        left += list[i].slab < 0;
+    per = (left + n - 1) / n;
+    memset(owner, 0, (size_t)s->mesh->n_node * sizeof *owner);
     for (int64_t i = 0; i < c->n_item; i++) {
         int64_t group = c->group[list[i].item];
-        int slab = (int)(i / per), n = space_group_size(s, group);
+        int slab, size = space_group_size(s, group);
 
-        list[i].slab = slab;
-        for (int k = 0; k < n; k++) {
+        if (list[i].slab >= 0)
+            continue;
+        slab = list[i].slab = first + (int)(at++ / per);
+        for (int k = 0; k < size; k++) {
             int32_t node = space_carrier(s, group, k);
 
             if (node < 0 || node >= s->mesh->n_node)
@@ -54,9 +58,32 @@ static int assign(const assembly *a, const assembly_class *c, place *list, error
             if (owner[node] == 0)
                 owner[node] = (uint16_t)(slab + 1);
             if (owner[node] != slab + 1)
-                list[i].slab = c->n_slab;
+                list[i].slab = -1;
         }
     }
+}
+
+/* Slabs of all rounds; what is left after the last one is for one thread. */
+static int assign_rounds(const assembly *a, const assembly_class *c, place *list, error *err)
+{
+    arena scratch = {0};
+    uint16_t *owner;
+
+    ARENA_NEW(&scratch, owner, a->space->mesh->n_node + 1, err);
+    for (int64_t i = 0; i < c->n_item; i++)
+        list[i].slab = -1;
+    for (int round = 0; round < SLAB_ROUNDS; round++) {
+        int64_t left = 0, n;
+
+        for (int64_t i = 0; i < c->n_item; i++)
+            left += list[i].slab < 0;
+        n = left / (LEAST_BATCHES * PF_LANES);
+        if (n > 1)
+            assign(a, c, list, round * c->n_slab, n < c->n_slab ? (int)n : c->n_slab, owner);
+    }
+    for (int64_t i = 0; i < c->n_item; i++)
+        if (list[i].slab < 0)
+            list[i].slab = SLAB_ROUNDS * c->n_slab;
     arena_free(&scratch);
     return 0;
 }
@@ -73,7 +100,7 @@ static int arrange(assembly_class *c, const place *list, arena *memory, error *e
     ARENA_NEW(memory, c->source, c->n_item + 1, err);
     ARENA_NEW(memory, c->group, c->n_item + 1, err);
     ARENA_NEW(memory, c->batch, c->n_item + 1, err);
-    ARENA_NEW(memory, c->slab, c->n_slab + 2, err);
+    ARENA_NEW(memory, c->slab, SLAB_ROUNDS * c->n_slab + 2, err);
     c->n_batch = 0;
     for (int64_t at = 0; at < c->n_item; at++) {
         int64_t from = list[at].item;
@@ -88,7 +115,7 @@ static int arrange(assembly_class *c, const place *list, arena *memory, error *e
         if (fresh || at - c->batch[c->n_batch - 1] == PF_LANES || c->facet[at] != c->facet[at - 1])
             c->batch[c->n_batch++] = at;
     }
-    for (; slab <= c->n_slab; slab++)
+    for (; slab <= SLAB_ROUNDS * c->n_slab; slab++)
         c->slab[slab + 1] = c->n_batch;
     c->batch[c->n_batch] = c->n_item;
     return 0;
@@ -107,7 +134,7 @@ int slabs_make(assembly *a, assembly_class *c, arena *memory, error *err)
         list[i] = (place){c->facet[i] * a->space->mesh->n_cell + c->cell[i], i, 0};
     qsort(list, (size_t)c->n_item, sizeof *list, by_key);
     if (c->n_slab > 1) {
-        status = assign(a, c, list, err);
+        status = assign_rounds(a, c, list, err);
         qsort(list, (size_t)c->n_item, sizeof *list, by_slab);
     }
     if (!status)

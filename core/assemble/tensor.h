@@ -33,7 +33,8 @@ void tensor_create(tensor_rule *r, int dim, int n, const double *x);
 /* A field from its nodal values: value and reference derivatives at the points, those with out[kind] not NULL. */
 void tensor_values(const tensor_rule *r, int order, const v8 *nodal, v8 *const out[TENSOR_KINDS], v8 *room);
 
-/* sum_q sum_e B_i^e s^e for all nodes i, to vec[at[i]]; s[kind] NULL: none.  Without `add` it overwrites. */
+/* sum_q sum_e B_i^e s^e for all nodes i, to vec[at[i]]; s[kind] NULL: none, but not all of
+ * them. */
 void tensor_vector(const tensor_rule *r, int order, const v8 *const s[TENSOR_KINDS], const int *at, v8 *vec,
                    v8 *room);
 
