@@ -13,10 +13,11 @@
  * solutions, some tenths where every step has its own. */
 #define MANY_FLOPS           6e10
 #define MANY_FLOPS_EACH_STEP 1.5e9
-/* Some seconds again where every step has its own matrix, but another one only near few bodies (band.h); in 2D:
- * in 3D solving with the factors costs as much as the iteration. */
-#define MANY_FLOPS_BAND 1e10
-#define FEW_ATTACHED    0.2 /* pairs of a cell and a body near it, of all cells */
+/* The same in 2D, measured: where bodies are near to few cells, the factors of one step serve many (band.h); in
+ * suspensions none do. */
+#define MANY_FLOPS_FEW_2D   1e10
+#define MANY_FLOPS_CROWD_2D 4e8
+#define FEW_ATTACHED        0.2 /* pairs of a cell and a body near it, of all cells */
 
 static double available_memory(void)
 {
@@ -116,7 +117,9 @@ static double many_each_step(const space *s)
 {
     int few = (double)s->n_attached < FEW_ATTACHED * (double)s->mesh->n_cell;
 
-    return s->mesh->dim == 2 && few ? MANY_FLOPS_BAND : MANY_FLOPS_EACH_STEP;
+    if (s->mesh->dim == 3)
+        return MANY_FLOPS_EACH_STEP;
+    return few ? MANY_FLOPS_FEW_2D : MANY_FLOPS_CROWD_2D;
 }
 
 int linear_predict(linear *l, error *err)

@@ -94,6 +94,7 @@ void space_destroy(space *s)
     free(s->tie);
     free(s->tie_pair);
     free(s->spare);
+    space_graph_free(&s->graph);
     arena_free(&s->attached_memory);
     arena_free(&s->pattern_memory);
     arena_free(&s->memory);

@@ -75,23 +75,24 @@ int32_t space_carrier(const space *s, int64_t group, int i)
     return cell_carrier(s, s->tie[k - s->n_link][i / n], -1, i % n);
 }
 
-int64_t space_pairs(const space *s)
+int64_t space_more_pairs(const space *s)
 {
-    int64_t cell = (int64_t)s->cell_carriers * s->cell_carriers;
-
-    return space_link_group(s, 0) * cell + s->n_link * 4;
+    return s->n_attached * s->cell_carriers * s->cell_carriers + s->n_link * 4;
 }
 
 const int32_t *space_pair(const space *s, int64_t group)
 {
-    int64_t cell = (int64_t)s->cell_carriers * s->cell_carriers, n = s->mesh->type->n_node;
-    int64_t plain = space_link_group(s, 0), links = space_tie_group(s, 0);
+    int64_t cell = (int64_t)s->cell_carriers * s->cell_carriers, n = s->mesh->type->n_node,
+            k = group - s->mesh->n_cell;
 
-    if (group < plain)
+    if (k < 0)
         return s->pair + group * cell;
-    if (group < links)
-        return s->pair + plain * cell + (group - plain) * 4;
-    return s->tie_pair + (group - links) * 4 * n * n;
+    if (k < s->n_attached)
+        return s->more_pair + k * cell;
+    k -= s->n_attached;
+    if (k < s->n_link)
+        return s->more_pair + s->n_attached * cell + k * 4;
+    return s->tie_pair + (k - s->n_link) * 4 * n * n;
 }
 
 int space_attach(space *s, const int32_t *cell, const int32_t *body, int64_t n, error *err)

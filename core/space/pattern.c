@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * The sparsity pattern, built on carriers: all rows of a carrier have the same columns, so one
- * offset per pair of carriers of a cell locates a whole block of entries in the matrix. */
+ * offset per pair of carriers of a cell locates a whole block of entries in the matrix.
+ *
+ * Which carriers couple is kept as a graph.  A change of groups near bodies changes it there: elsewhere lists and
+ * offsets stay. */
 #include "space/space.h"
 
+#include "base/list.h"
 #include "base/order.h"
 
 #include <stdlib.h>
@@ -58,138 +62,240 @@ static int32_t carrier_of(const space *s, int64_t g, int i)
                                : space_carrier(s, s->spare[g - space_groups(s)][i / n], i % n);
 }
 
-/* Groups of each carrier, in compressed lists. */
-static int groups_of_carriers(space *s, int64_t **start, int32_t **cell, error *err)
+/* Groups first..last-1 of each carrier, ascending, in compressed lists. */
+static int groups_of_carriers(const space *s, int64_t first, int64_t last, arena *memory, int64_t **start,
+                              int32_t **group, error *err)
 {
-    int64_t n = n_groups(s), room = 0;
+    int64_t room = 0;
 
-    if (n > INT32_MAX)
-        return error_set(err, ERR_MEMORY,
-                         "%lld cells and pairs of cells and bodies; this build numbers at most 2^31", (long long)n);
-    ARENA_NEW(&s->memory, *start, s->n_carrier + 2, err);
-    for (int64_t e = 0; e < n; e++)
+    for (int64_t e = first; e < last; e++)
         room += group_size(s, e);
-    ARENA_NEW(&s->memory, *cell, room, err);
-    for (int64_t e = 0; e < n; e++)
+    ARENA_NEW(memory, *start, s->n_carrier + 2, err);
+    ARENA_NEW(memory, *group, room + 1, err);
+    for (int64_t e = first; e < last; e++)
         for (int i = 0; i < group_size(s, e); i++)
             if (carrier_of(s, e, i) >= 0)
                 (*start)[carrier_of(s, e, i) + 2]++;
     for (int64_t c = 0; c <= s->n_carrier; c++)
         (*start)[c + 1] += (*start)[c];
-    for (int64_t e = 0; e < n; e++)
+    for (int64_t e = first; e < last; e++)
         for (int i = 0; i < group_size(s, e); i++)
             if (carrier_of(s, e, i) >= 0)
-                (*cell)[(*start)[carrier_of(s, e, i) + 1]++] = (int32_t)e;
+                (*group)[(*start)[carrier_of(s, e, i) + 1]++] = (int32_t)e;
     return 0;
 }
 
-/* Carriers with free unknowns that share a group with c, ascending, each once.  seen: 1 if the group is one, 2 if
- * it is but a spare pair. */
-static int64_t neighbours(const space *s, const int64_t *start, const int32_t *cell, int64_t c, int32_t *list,
-                          uint8_t *seen)
+/* What a pattern is built with. */
+typedef struct builder {
+    space *s;
+    int64_t *more_start; /* groups beside the cells, of each carrier */
+    int32_t *more;
+    uint8_t *fresh; /* [n_carrier] 1: the carrier couples otherwise than in the last pattern   */
+    uint8_t *seen;  /* [n_carrier] of a list: 1 some group couples it, 2 only a spare pair does */
+    int32_t *offset, *list;
+    space_graph graph; /* the new one */
+    arena memory;
+} builder;
+
+static int open_builder(builder *b, space *s, error *err)
 {
-    int64_t n = 0;
+    const space_graph *old = &s->graph;
 
-    for (int64_t k = start[c]; k < start[c + 1]; k++)
-        for (int i = 0, size = group_size(s, cell[k]); i < size; i++) {
-            int32_t j = carrier_of(s, cell[k], i);
+    b->s = s;
+    TRY(groups_of_carriers(s, s->mesh->n_cell, n_groups(s), &b->memory, &b->more_start, &b->more, err));
+    ARENA_NEW(&b->memory, b->fresh, s->n_carrier, err);
+    ARENA_NEW(&b->memory, b->seen, s->n_carrier, err);
+    ARENA_NEW(&b->memory, b->offset, s->n_carrier, err);
+    ARENA_NEW(&b->memory, b->list, s->n_carrier, err);
+    ARENA_NEW(&b->graph.memory, b->graph.start, s->n_carrier + 1, err);
+    ARENA_NEW(&b->graph.memory, b->graph.unknowns, s->n_carrier, err);
+    ARENA_NEW(&b->graph.memory, b->graph.special, s->n_carrier, err);
+    memset(b->fresh, !old->start, (size_t)s->n_carrier);
+    memset(b->offset, 0xff, (size_t)s->n_carrier * sizeof *b->offset);
+    for (int64_t c = 0; c < s->n_carrier; c++) {
+        b->graph.unknowns[c] = (int32_t)(s->node_free[c + 1] - s->node_free[c]);
+        b->graph.special[c] = b->more_start[c + 1] > b->more_start[c];
+        if (!old->start)
+            continue;
+        b->fresh[c] |= b->graph.special[c] || old->special[c];
+        if (b->graph.unknowns[c] == old->unknowns[c])
+            continue;
+        b->fresh[c] = 1;
+        for (int64_t k = s->cell_start[c]; k < s->cell_start[c + 1]; k++)
+            for (int i = 0; i < s->cell_carriers; i++)
+                if (carrier_of(s, s->cell_list[k], i) >= 0)
+                    b->fresh[carrier_of(s, s->cell_list[k], i)] = 1;
+    }
+    return 0;
+}
 
-            if (j < 0 || seen[j] || s->node_free[j + 1] == s->node_free[j])
-                continue;
-            seen[j] = cell[k] < space_groups(s) ? 1 : 2;
-            list[n++] = j;
-        }
-    qsort(list, (size_t)n, sizeof *list, order_int32);
+/* Adds the carriers of a group that have free unknowns to a list of n. */
+static int64_t add_carriers(builder *b, int64_t group, int64_t n)
+{
+    const int kind = group < space_groups(b->s) ? 1 : 2;
+
+    for (int i = 0, size = group_size(b->s, group); i < size; i++) {
+        int32_t j = carrier_of(b->s, group, i);
+
+        if (j < 0 || b->seen[j] || b->graph.unknowns[j] == 0)
+            continue;
+        b->seen[j] = (uint8_t)kind;
+        b->list[n++] = j;
+    }
     return n;
 }
 
-/* For the cells of carrier c: where the columns of each of their carriers start in c's rows. */
-static void locate_pairs(space *s, const int64_t *start, const int32_t *cell, int64_t c, int32_t *offset)
+/* Carriers with free unknowns that share a group with c, ascending, each once. */
+static int64_t neighbours(builder *b, int64_t c)
 {
-    for (int64_t k = start[c]; k < start[c + 1] && cell[k] < space_groups(s); k++) {
-        int32_t *pair = (int32_t *)space_pair(s, cell[k]);
-        int n = space_group_size(s, cell[k]);
+    const space *s = b->s;
+    int64_t n = 0;
+
+    for (int64_t k = s->cell_start[c]; k < s->cell_start[c + 1]; k++)
+        n = add_carriers(b, s->cell_list[k], n);
+    for (int64_t k = b->more_start[c]; k < b->more_start[c + 1]; k++)
+        n = add_carriers(b, b->more[k], n);
+    qsort(b->list, (size_t)n, sizeof *b->list, order_int32);
+    return n;
+}
+
+/* The graph: new lists near bodies, elsewhere those of the last one. */
+static int build_graph(builder *b, error *err)
+{
+    const space_graph *old = &b->s->graph;
+    space_graph *g = &b->graph;
+
+    for (int64_t c = 0; c < b->s->n_carrier; c++) {
+        const int32_t *list = b->fresh[c] ? b->list : old->list + old->start[c];
+        int64_t n = b->fresh[c] ? neighbours(b, c) : old->start[c + 1] - old->start[c];
+
+        LIST_ROOM(g->list, g->start[c] + n, &g->room, err);
+        LIST_ROOM(g->spare, g->start[c] + n, &g->spare_room, err);
+        memcpy(g->list + g->start[c], list, (size_t)n * sizeof *list);
+        memset(g->spare + g->start[c], 0, (size_t)n);
+        for (int64_t k = 0; b->fresh[c] && k < n; k++) {
+            g->spare[g->start[c] + k] = b->seen[list[k]] == 2;
+            b->seen[list[k]] = 0;
+        }
+        g->start[c + 1] = g->start[c] + n;
+    }
+    return 0;
+}
+
+/* For groups of carrier c: where the columns of each of their carriers start in c's rows. */
+static void locate_pairs(builder *b, int64_t c, const int32_t *group, int64_t n_group)
+{
+    space *s = b->s;
+
+    for (int64_t k = 0; k < n_group && group[k] < space_groups(s); k++) {
+        int32_t *pair = (int32_t *)space_pair(s, group[k]);
+        int n = space_group_size(s, group[k]);
 
         for (int i = 0; i < n; i++)
-            if (carrier_of(s, cell[k], i) == c)
+            if (space_carrier(s, group[k], i) == c)
                 for (int j = 0; j < n; j++) {
-                    int32_t other = carrier_of(s, cell[k], j);
+                    int32_t other = space_carrier(s, group[k], j);
 
-                    pair[i * n + j] = other < 0 ? -1 : offset[other];
+                    pair[i * n + j] = other < 0 ? -1 : b->offset[other];
                 }
     }
 }
 
-/* Rows of carrier c, from entry `at` on, and with offsets their columns; returns where they end. */
-static int64_t write_rows(space *s, int64_t c, const int32_t *list, int64_t n, int64_t width, const int32_t *offset,
-                          const uint8_t *seen, int64_t at)
+/* Offsets of all groups of a carrier that couples otherwise than before. */
+static void locate_carrier(builder *b, int64_t c)
+{
+    const space *s = b->s;
+    const space_graph *g = &b->graph;
+    int32_t width = 0;
+
+    for (int64_t k = g->start[c]; k < g->start[c + 1]; k++) {
+        b->offset[g->list[k]] = width;
+        width += g->unknowns[g->list[k]];
+    }
+    locate_pairs(b, c, s->cell_list + s->cell_start[c], s->cell_start[c + 1] - s->cell_start[c]);
+    locate_pairs(b, c, b->more + b->more_start[c], b->more_start[c + 1] - b->more_start[c]);
+    for (int64_t k = g->start[c]; k < g->start[c + 1]; k++)
+        b->offset[g->list[k]] = -1;
+}
+
+/* Rows of carrier c from entry `at` on; returns where they end. */
+static int64_t write_rows(space *s, const space_graph *g, int64_t c, int64_t at)
 {
     for (int64_t r = s->node_free[c]; r < s->node_free[c + 1]; r++) {
         s->row[r] = at;
-        for (int64_t k = 0; offset && k < n; k++)
-            for (int64_t f = s->node_free[list[k]]; f < s->node_free[list[k] + 1]; f++) {
-                int64_t entry = at + offset[list[k]] + f - s->node_free[list[k]];
+        for (int64_t k = g->start[c]; k < g->start[c + 1]; k++) {
+            int32_t j = g->list[k];
 
-                s->col[entry] = f;
-                if (s->unused)
-                    s->unused[entry] = seen[list[k]] == 2;
-            }
-        at += width;
+            for (int64_t f = s->node_free[j]; f < s->node_free[j + 1]; f++)
+                s->col[at++] = f;
+            if (s->unused)
+                memset(s->unused + at - g->unknowns[j], g->spare[k], (size_t)g->unknowns[j]);
+        }
     }
     return at;
 }
 
+static int64_t count_entries(const space_graph *g, int64_t n_carrier)
+{
+    int64_t n = 0;
+
+    for (int64_t c = 0; c < n_carrier; c++)
+        for (int64_t k = g->start[c]; k < g->start[c + 1]; k++)
+            n += (int64_t)g->unknowns[c] * g->unknowns[g->list[k]];
+    return n;
+}
+
+static int build(builder *b, space *s, error *err)
+{
+    int64_t entries, at = 0;
+
+    if (n_groups(s) > INT32_MAX)
+        return error_set(err, ERR_MEMORY,
+                         "%lld cells and pairs of cells and bodies; this build numbers at most 2^31",
+                         (long long)n_groups(s));
+    if (!s->cell_start) {
+        TRY(groups_of_carriers(s, 0, s->mesh->n_cell, &s->memory, &s->cell_start, &s->cell_list, err));
+        ARENA_NEW(&s->memory, s->pair, s->mesh->n_cell * s->cell_carriers * s->cell_carriers, err);
+    }
+    TRY(open_builder(b, s, err));
+    TRY(build_graph(b, err));
+    entries = count_entries(&b->graph, s->n_carrier);
+    ARENA_NEW(&s->pattern_memory, s->row, s->n_free + 1, err);
+    ARENA_NEW(&s->pattern_memory, s->more_pair, space_more_pairs(s) + 1, err);
+    ARENA_NEW(&s->pattern_memory, s->col, entries, err);
+    if (s->n_spare)
+        ARENA_NEW(&s->pattern_memory, s->unused, entries, err);
+    for (int64_t c = 0; c < s->n_carrier; c++) {
+        if (b->fresh[c])
+            locate_carrier(b, c);
+        at = write_rows(s, &b->graph, c, at);
+    }
+    s->row[s->n_free] = at;
+    return 0;
+}
+
+void space_graph_free(space_graph *g)
+{
+    free(g->list);
+    free(g->spare);
+    arena_free(&g->memory);
+    memset(g, 0, sizeof *g);
+}
+
 int space_constrain(space *s, error *err)
 {
-    arena scratch = {0};
-    arena keep;
-    int64_t *start = NULL, entries = 0;
-    int32_t *cell = NULL, *list, *offset;
-    uint8_t *seen;
-    int status = 0;
+    builder b = {0};
+    int status;
 
     arena_free(&s->pattern_memory);
     s->unused = NULL;
-    TRY(number_free(s, err));
-    ARENA_NEW(&s->pattern_memory, s->row, s->n_free + 1, err);
-    ARENA_NEW(&s->pattern_memory, s->pair, space_pairs(s), err);
-    keep = s->memory; /* what follows is needed only here */
-    s->memory = scratch;
-    status = groups_of_carriers(s, &start, &cell, err);
-    list = arena_alloc(&s->memory, (size_t)s->n_carrier, sizeof *list);
-    offset = arena_alloc(&s->memory, (size_t)s->n_carrier, sizeof *offset);
-    seen = arena_alloc(&s->memory, (size_t)s->n_carrier, 1);
-    scratch = s->memory;
-    s->memory = keep;
-    if (status || !list || !offset || !seen) {
-        arena_free(&scratch);
-        return status ? status : error_memory(err, "matrix pattern", (double)s->n_carrier * 9);
-    }
-    for (int pass = 0; pass < 2 && !status; pass++) {
-        int64_t at = 0;
-
-        memset(offset, 0xff, (size_t)s->n_carrier * sizeof *offset);
-        for (int64_t c = 0; c < s->n_carrier; c++) {
-            int64_t n = neighbours(s, start, cell, c, list, seen), width = 0;
-
-            for (int64_t k = 0; k < n; k++) {
-                offset[list[k]] = (int32_t)width;
-                width += s->node_free[list[k] + 1] - s->node_free[list[k]];
-            }
-            if (pass)
-                locate_pairs(s, start, cell, c, offset);
-            at = write_rows(s, c, list, n, width, pass ? offset : NULL, seen, at);
-            for (int64_t k = 0; k < n; k++) {
-                offset[list[k]] = -1;
-                seen[list[k]] = 0;
-            }
-        }
-        s->row[s->n_free] = entries = at;
-        if (!pass && ((s->n_spare && !(s->unused = arena_alloc(&s->pattern_memory, (size_t)entries, 1))) ||
-                      !(s->col = arena_alloc(&s->pattern_memory, (size_t)entries, sizeof *s->col))))
-            status = error_memory(err, "matrix pattern", 9.0 * (double)entries);
-    }
-    arena_free(&scratch);
+    status = number_free(s, err);
+    status = status ? status : build(&b, s, err);
+    space_graph_free(&s->graph);
+    if (status)
+        space_graph_free(&b.graph);
+    s->graph = b.graph;
     s->outdated = status != 0;
+    arena_free(&b.memory);
     return status;
 }

@@ -32,6 +32,17 @@ enum space_fixed {
     SPACE_AWAY = 2        /* of a field inside of bodies (PF_IN_PARTICLES), and no body is near    */
 };
 
+/* Which carriers couple, as the last pattern had it. */
+typedef struct space_graph {
+    int64_t *start;    /* [n_carrier + 1]; NULL: there is none */
+    int32_t *list;     /* [start[n_carrier]] carriers with free unknowns, ascending  */
+    uint8_t *spare;    /* of each: 1 only a spare pair couples them                  */
+    int32_t *unknowns; /* [n_carrier] free ones                                      */
+    uint8_t *special;  /* [n_carrier] 1: in some group that is no cell               */
+    int64_t room, spare_room;
+    arena memory;
+} space_graph;
+
 typedef struct space {
     const mesh *mesh;
     int n_field;
@@ -61,13 +72,17 @@ typedef struct space {
 
     /* Matrix pattern over free unknowns; all unknowns of two carriers of one cell couple. */
     int64_t *row, *col; /* [n_free + 1], [row[n_free]]                                */
-    int32_t *pair;      /* of each group [size^2]: offset of carrier j's columns in
-                                 the rows of carrier i, or -1                               */
+    /* Of each group [size^2]: offset of carrier j's columns in the rows of carrier i, or -1. */
+    int32_t *pair;      /* of cells */
+    int32_t *more_pair; /* of attached cells, then of links */
     int32_t *tie_pair;  /* the same of ties */
     int64_t tie_pair_room;
     uint8_t *unused; /* [row[n_free]] 1: an entry that no group has, but a spare pair; NULL: there are none */
     int claims;      /* how often a tie has taken such entries  */
-    int outdated;    /* groups have changed since the pattern was built */
+    space_graph graph;
+    int64_t *cell_start; /* cells of each carrier, ascending */
+    int32_t *cell_list;
+    int outdated; /* groups have changed since the pattern was built */
     arena memory, attached_memory, pattern_memory;
 } space;
 
@@ -103,11 +118,12 @@ int32_t space_carrier(const space *s, int64_t group, int i);
 int32_t space_body_carrier(const space *s, int body);
 /* Offsets of the group, [size][size]: of carrier j's columns in the rows of carrier i, or -1. */
 const int32_t *space_pair(const space *s, int64_t group);
-/* Length of `pair`. */
-int64_t space_pairs(const space *s);
+/* Length of `more_pair`. */
+int64_t space_more_pairs(const space *s);
 /* Node of the mesh that carries the unknowns of a node: itself, or its master on a periodic boundary. */
 int32_t space_master(const space *s, int32_t node);
 
+void space_graph_free(space_graph *g);
 void space_destroy(space *s);
 
 #endif

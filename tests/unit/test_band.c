@@ -114,6 +114,66 @@ static void a_disk_that_moves_two_cells_keeps_the_pattern(void **state)
     drop(&m);
 }
 
+static void *copy(const void *of, size_t bytes)
+{
+    void *c = malloc(bytes + 1);
+
+    assert_non_null(c);
+    if (bytes)
+        memcpy(c, of, bytes);
+    return c;
+}
+
+/* The pattern as it has become while the disk moved, and as it is if nothing is known of the one before. */
+static void check_pattern(const char *how)
+{
+    moving m = open_disk(how);
+    space *s = &m.k->p.space;
+    const int cell = s->cell_carriers * s->cell_carriers, tie = 4 * s->mesh->type->n_node * s->mesh->type->n_node;
+    error err = {0};
+    int n = 0;
+
+    for (int i = 0; i < 24; i++) {
+        void *kept[6];
+        size_t size[6];
+
+        n += move(&m, 0.5, i < 12 ? 0.3 : -0.4) == PLACEMENT_PATTERN;
+        for (int pass = 0; pass < 2; pass++) {
+            const size_t entries = (size_t)s->row[s->n_free];
+            const void *now[] = {s->row, s->col, s->unused, s->pair, s->more_pair, s->tie_pair};
+            const size_t bytes[] = {((size_t)s->n_free + 1) * sizeof *s->row,
+                                    entries * sizeof *s->col,
+                                    s->unused ? entries : 0,
+                                    (size_t)(s->mesh->n_cell * cell) * sizeof *s->pair,
+                                    (size_t)space_more_pairs(s) * sizeof *s->more_pair,
+                                    (size_t)(s->n_tie * tie) * sizeof *s->tie_pair};
+
+            for (int k = 0; k < 6; k++) {
+                if (pass) {
+                    assert_int_equal(bytes[k], size[k]);
+                    assert_memory_equal(now[k] ? now[k] : "", kept[k], bytes[k]);
+                    free(kept[k]);
+                    continue;
+                }
+                size[k] = bytes[k];
+                kept[k] = copy(now[k], bytes[k]);
+            }
+            space_graph_free(&s->graph);
+            assert_int_equal(system_renew(&m.k->p.system, &err), 0);
+        }
+    }
+    print_message("# %s: %d other patterns\n", how, n);
+    assert_true(n > 1);
+    drop(&m);
+}
+
+static void a_pattern_that_changes_locally_is_as_one_from_scratch(void **state)
+{
+    (void)state;
+    check_pattern("how=sharp");
+    check_pattern("how=conservative");
+}
+
 /* Entries that are there to spare are zero, and a factorisation does not see them. */
 static void spare_entries_are_zero_and_not_factored(void **state)
 {
@@ -206,6 +266,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_disk_that_moves_two_cells_keeps_the_pattern),
+        cmocka_unit_test(a_pattern_that_changes_locally_is_as_one_from_scratch),
         cmocka_unit_test(spare_entries_are_zero_and_not_factored),
         cmocka_unit_test(old_factors_and_a_band_solve_as_fresh_ones),
         cmocka_unit_test(factors_of_other_unknowns_serve_as_well),
