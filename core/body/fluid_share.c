@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* How near, in sizes of a cell. */
-#define RING 0.27 /* no round number: bodies often lie along the lines of the mesh */
+#define RING 2.07
 
 /* Enters a cell, with the weights of all of it unless a body covers it. */
 static void enter(const bodies *b, placement *p, int32_t cell, int64_t attached)
