@@ -8,7 +8,7 @@
 #include <math.h>
 
 #define LEFT        0.05
-#define LEFT_ENOUGH 0.03
+#define LEFT_ENOUGH 0.003
 
 /* Expected of the second step.  The first one is often linear, from rest, and its fall says nothing about the next.
  */
