@@ -107,13 +107,14 @@ int envelope_near(const bodies *b, const placement *p, int64_t attached, double 
     return d <= reach * reach;
 }
 
-/* Entries for ties of attached cells with their neighbours. */
+/* Entries for ties of attached cells with their neighbours.  Not in 3D, where they would make the matrix larger by
+ * a third to a half, and hardly any is factored. */
 static int spare_ties(bodies *b, error *err)
 {
     space *s = b->space;
     int32_t *done = b->near_cell; /* [n_cell] */
 
-    if (!b->has_ties || b->envelope.margin < MARGIN)
+    if (!b->has_ties || b->envelope.margin < MARGIN || s->mesh->dim == 3)
         return 0;
     memset(done, 0, (size_t)s->mesh->n_cell * sizeof *done);
     for (int64_t a = 0; a < s->n_attached; a++) {
