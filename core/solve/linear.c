@@ -344,7 +344,8 @@ static int solve_by_iteration(linear *l, double *b, double *x, double tol, error
     double reached = INFINITY, solve_flops = 4 * l->stats.cost.fill;
     int had = l->stats.gmres_iterations;
 
-    TRY(linear_measure(l, err));
+    if (!l->row_scale || !l->factored)
+        TRY(linear_measure(l, err));
     prepare(l, b, 1);
     if (l->factored && !l->fresh && l->spent * solve_flops < l->stats.cost.flops) {
         int spent = l->spent;
