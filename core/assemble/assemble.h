@@ -25,7 +25,7 @@ enum {
     ASSEMBLE_PAD = 3,
     SURFACE_POINTS = 16,
     ASSEMBLE_CELL_DEGREE = 5,
-    SLAB_ROUNDS = 2,           /* of slabs that run at once */
+    SLAB_ROUNDS = 2,            /* of slabs that run at once */
     ELEMENT_MOST_ENTRIES = 1024 /* of an element vector */
 };
 

@@ -55,7 +55,7 @@ static void close_idle(const space *s, const uint8_t *idle, double *residual, do
             continue;
         residual[d] = 0;
         for (int64_t k = r >= 0 && value ? s->row[r] : 0; k < (r >= 0 && value ? s->row[r + 1] : 0); k++)
-            if (s->col[k] == r)
+            if (space_column(s, r, k) == r)
                 value[k] = 1;
     }
 }

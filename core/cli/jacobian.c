@@ -46,7 +46,7 @@ static int compare(problem *p, double shift, double *x, const double *old, doubl
             double jd = 0, dr = (plus[s->dof_of[i]] - minus[s->dof_of[i]]) / (2 * h);
 
             for (int64_t e = s->row[i]; e < s->row[i + 1]; e++)
-                jd += sys->linear.value[e] * d[s->dof_of[s->col[e]]];
+                jd += sys->linear.value[e] * d[s->dof_of[space_column(s, i, e)]];
             diff[f] += (jd - dr) * (jd - dr);
             size[f] += dr * dr;
         }

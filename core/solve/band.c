@@ -143,7 +143,7 @@ static void find_rim(band *b, const pf_csr *a)
     b->n_rim = 0;
     for (int64_t k = 0; k < b->a.n; k++)
         for (int64_t e = a->row[b->unknown[k]]; e < a->row[b->unknown[k] + 1]; e++) {
-            int64_t j = a->col[e];
+            int64_t j = pf_column(a, b->unknown[k], e);
 
             if (b->number[j] == -1) {
                 b->number[j] = RIM;
@@ -164,7 +164,7 @@ static int take_matrix(band *b, const pf_csr *a, error *err)
         LIST_ROOM(b->value, most, &b->value_room, err);
         b->row[k] = n;
         for (int64_t e = a->row[i]; e < a->row[i + 1]; e++) {
-            int32_t j = b->number[a->col[e]];
+            int32_t j = b->number[pf_column(a, i, e)];
 
             if (j < 0 || (b->space->unused && b->space->unused[e]))
                 continue;
@@ -257,7 +257,7 @@ static double left_of(const pf_csr *a, int64_t i, const double *r, const double 
     double left = r[i];
 
     for (int64_t e = a->row[i]; e < a->row[i + 1]; e++)
-        left -= a->value[e] * z[a->col[e]];
+        left -= a->value[e] * z[pf_column(a, i, e)];
     return left;
 }
 

@@ -65,6 +65,20 @@ const pf_solver *linear_solver(const linear *l)
     return l->analyzed || l->band.factors ? linear_method(l, l->at) : NULL;
 }
 
+/* Whether the solver reads the matrix as it is. */
+static int shares(const pf_solver *s)
+{
+    return LINEAR_HAS(s, flags) && (s->flags & PF_SOLVER_SHARED_COLUMNS);
+}
+
+const pf_csr *linear_matrix(linear *l)
+{
+    if (shares(linear_method(l, l->at)))
+        return &l->a;
+    packed_values(&l->packed, l->space, &l->a);
+    return &l->packed.a;
+}
+
 int linear_analyze(linear *l, int method, int *unfit, error *err)
 {
     const pf_solver *solver = linear_method(l, method);
@@ -76,10 +90,10 @@ int linear_analyze(linear *l, int method, int *unfit, error *err)
     l->stats.cost = (pf_solver_cost){0};
     if (!l->instance[method] && solver->create(&l->instance[method], l->n_thread, why, sizeof why))
         return error_set(err, ERR_MEMORY, "linear solver %s: %s", solver->name, why);
-    if (method == METHOD_DIRECT)
+    if (!shares(solver))
         TRY(packed_structure(&l->packed, l->space, &l->a, err));
-    status = solver->analyze(l->instance[method], method == METHOD_DIRECT ? &l->packed.a : &l->a, &l->stats.cost,
-                             why, sizeof why);
+    status = solver->analyze(l->instance[method], shares(solver) ? &l->a : &l->packed.a, &l->stats.cost, why,
+                             sizeof why);
     l->stats.analyze_seconds += clock_seconds() - t;
     *unfit = status == PF_SOLVER_UNFIT;
     if (status)

@@ -51,7 +51,8 @@ static int name_row(const newton_system *s, error *err)
                     err, ERR_CONVERGE,
                     "the derivative of the equation of %s by %s is %g, though what the terms return is finite: "
                     "numbers overflow",
-                    name_of(sp, sp->dof_of[i]).s, name_of(sp, sp->dof_of[sp->col[k]]).s, s->linear.value[k]);
+                    name_of(sp, sp->dof_of[i]).s, name_of(sp, sp->dof_of[space_column(sp, i, k)]).s,
+                    s->linear.value[k]);
     }
     return error_set(err, ERR_CONVERGE, "the residual is finite, but too large to be measured: numbers overflow");
 }
@@ -88,7 +89,7 @@ static int64_t find_empty(newton_system *s, int which, int64_t *first)
     memset(most, 0, (size_t)sp->n_free * sizeof *most);
     for (int64_t i = 0; i < sp->n_free; i++)
         for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++) {
-            double *m = &most[which ? i : sp->col[k]];
+            double *m = &most[which ? i : space_column(sp, i, k)];
 
             *m = fmax(*m, fabs(s->linear.value[k]));
         }
@@ -111,7 +112,7 @@ static int find_constant(newton_system *s, int *component)
             for (int64_t i = 0; i < sp->n_free; i++) {
                 sum[i] = size[i] = 0;
                 for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++) {
-                    int64_t d = sp->dof_of[sp->col[k]];
+                    int64_t d = sp->dof_of[space_column(sp, i, k)];
 
                     if (sp->dof_field[d] == f && sp->dof_comp[d] == *component) {
                         sum[i] += s->linear.value[k];

@@ -91,8 +91,8 @@ static closure close_left(newton_system *s, int f)
         if (sp->dof_field[sp->dof_of[i]] != f || s->assembly.idle[sp->dof_of[i]])
             continue;
         for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++) {
-            sum[sp->col[k]] += value[k];
-            size[sp->col[k]] += fabs(value[k]);
+            sum[space_column(sp, i, k)] += value[k];
+            size[space_column(sp, i, k)] += fabs(value[k]);
         }
     }
     return close_up(s, f, sum, size);
@@ -113,7 +113,7 @@ static closure close_right(newton_system *s, int f)
         double plain = 0, absolute = 0;
 
         for (int64_t k = sp->row[i]; k < sp->row[i + 1]; k++) {
-            double v = value[k] * one[sp->col[k]];
+            double v = value[k] * one[space_column(sp, i, k)];
 
             plain += v;
             absolute += fabs(v);

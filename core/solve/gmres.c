@@ -8,7 +8,8 @@
 
 void gmres_multiply(const gmres *g, const double *x, double *y)
 {
-    const int64_t *row = g->a->row, *col = g->a->col;
+    const int64_t *row = g->a->row, *shift = g->a->shared_shift;
+    const int32_t *col = g->a->shared_col;
     const double *value = g->a->value;
 
 #pragma omp parallel for num_threads(g->n_thread) if (row[g->a->n] >= VECTOR_THREADED) schedule(static)
@@ -16,7 +17,7 @@ void gmres_multiply(const gmres *g, const double *x, double *y)
         double s = 0;
 
         for (int64_t k = row[i]; k < row[i + 1]; k++)
-            s += value[k] * x[col[k]];
+            s += value[k] * x[col[k + shift[i]]];
         y[i] = s;
     }
 }

@@ -77,7 +77,12 @@ int linear_renew(linear *l, error *err)
     gmres_destroy(&l->krylov);
     l->analyzed = l->factored = l->fresh = l->kept = 0;
     l->row_scale = NULL;
-    l->a = (pf_csr){.n = s->n_free, .row = s->row, .col = s->col, .n_node = s->n_row_node, .node = s->row_node};
+    l->a = (pf_csr){.n = s->n_free,
+                    .row = s->row,
+                    .shared_col = s->col,
+                    .shared_shift = s->col_shift,
+                    .n_node = s->n_row_node,
+                    .node = s->row_node};
     l->max_iterations = s->mesh->dim == 2 ? 12 : LINEAR_MAX_ITERATIONS;
     ARENA_NEW(&l->memory, l->value, s->row[s->n_free], err);
     l->a.value = l->value;
@@ -132,9 +137,7 @@ static int set_up(linear *l, error *err)
 
     solver = linear_method(l, l->at);
     t = clock_seconds();
-    if (l->at == METHOD_DIRECT)
-        packed_values(&l->packed, l->space, &l->a);
-    status = solver->setup(l->instance[l->at], l->at == METHOD_DIRECT ? &l->packed.a : &l->a, why, sizeof why);
+    status = solver->setup(l->instance[l->at], linear_matrix(l), why, sizeof why);
     l->stats.factor_seconds += clock_seconds() - t;
     l->stats.factorisations++;
     l->spent = 0;
@@ -172,11 +175,11 @@ static void hold(linear *l, double *b)
         if (!(l->rows.view.free_fields >> f & 1))
             continue;
         for (int64_t k = l->a.row[pin]; k < l->a.row[pin + 1]; k++) {
-            int64_t j = l->a.col[k];
+            int64_t j = pf_column(&l->a, pin, k);
 
             l->value[k] = j == pin;
             for (int64_t m = l->a.row[j]; j != pin && m < l->a.row[j + 1]; m++)
-                if (l->a.col[m] == pin)
+                if (pf_column(&l->a, j, m) == pin)
                     l->value[m] = 0;
         }
         b[pin] = 0;
@@ -213,7 +216,7 @@ static int backward_error(linear *l, const double *b, double *z, double *backwar
     for (int64_t i = 0; i < n; i++) {
         size[i] = 0;
         for (int64_t k = l->a.row[i]; k < l->a.row[i + 1]; k++)
-            size[i] += fabs(l->value[k] * z[l->a.col[k]]);
+            size[i] += fabs(l->value[k] * z[pf_column(&l->a, i, k)]);
     }
     gmres_multiply(&l->krylov, z, l->r);
     vector_subtract(n, b, l->r);
@@ -333,7 +336,8 @@ static int update(linear *l, error *err)
     const pf_solver *solver = linear_method(l, l->at);
     char why[400] = "";
     double t = clock_seconds();
-    int status = LINEAR_HAS(solver, update) ? solver->update(l->instance[l->at], &l->a, why, sizeof why) : 0;
+    int status =
+        LINEAR_HAS(solver, update) ? solver->update(l->instance[l->at], linear_matrix(l), why, sizeof why) : 0;
 
     l->stats.factor_seconds += clock_seconds() - t;
     return status ? error_set(err, ERR_MEMORY, "linear solver %s: %s", solver->name, why) : 0;

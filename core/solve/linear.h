@@ -102,6 +102,8 @@ int moved_solve(linear *l, const double *b, double *x, double tol, int *done, er
 /* row_scale, from the matrix. */
 int linear_measure(linear *l, error *err);
 const pf_solver *linear_method(const linear *l, int method);
+/* The matrix as the solver in use reads it. */
+const pf_csr *linear_matrix(linear *l);
 /* Analysis by one method: the error says what went wrong, *unfit: only that this solver is not for such systems. */
 int linear_analyze(linear *l, int method, int *unfit, error *err);
 

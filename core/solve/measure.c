@@ -14,12 +14,12 @@ static double diagonal(const pf_csr *a, int64_t i)
     while (high - low > 1) {
         int64_t middle = (low + high) / 2;
 
-        if (a->col[middle] <= i)
+        if (pf_column(a, i, middle) <= i)
             low = middle;
         else
             high = middle;
     }
-    return a->col[low] == i ? fabs(a->value[low]) : 0;
+    return pf_column(a, i, low) == i ? fabs(a->value[low]) : 0;
 }
 
 int linear_measure(linear *l, error *err)
@@ -45,8 +45,8 @@ int linear_measure(linear *l, error *err)
         if (u->idle[i] || 2 * empty[f] <= n[f])
             continue;
         for (int64_t k = l->a.row[i]; k < l->a.row[i + 1]; k++)
-            if (u->field_of[l->a.col[k]] != f && d[l->a.col[k]] > 0)
-                sum[f] += l->a.value[k] * l->a.value[k] / d[l->a.col[k]];
+            if (u->field_of[pf_column(&l->a, i, k)] != f && d[pf_column(&l->a, i, k)] > 0)
+                sum[f] += l->a.value[k] * l->a.value[k] / d[pf_column(&l->a, i, k)];
     }
     for (int64_t i = 0; i < l->a.n; i++) {
         int f = u->field_of[i];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * packed.h -- the matrix without the entries that the pattern has only to spare (space.h): zeros that a
- * factorisation would fill. */
+ * packed.h -- the matrix with a column for each entry, and without the entries that the pattern has only to spare
+ * (space.h): zeros that a factorisation would fill. */
 #ifndef SOLVE_PACKED_H
 #define SOLVE_PACKED_H
 

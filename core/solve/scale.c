@@ -44,9 +44,9 @@ static void add_up(const newton_system *s, const int *of, const double *size, do
         for (int64_t k = sp->row[i]; k < end; k++) {
             double v = fabs(a[k]);
 
-            sum += v * size[sp->col[k]];
+            sum += v * size[space_column(sp, i, k)];
             largest = v > largest ? v : largest;
-            diagonal = sp->col[k] == i ? v : diagonal;
+            diagonal = space_column(sp, i, k) == i ? v : diagonal;
         }
         might[i] = diagonal > 1e-8 * largest ? (sum + fabs(s->residual[d])) / diagonal : 0;
         if (row)

@@ -140,12 +140,14 @@ static int32_t find_offset(const space *s, int32_t i, int32_t j)
     while (low < high) {
         int64_t middle = (low + high) / 2;
 
-        if (s->col[middle] < s->node_free[j])
+        if (space_column(s, s->node_free[i], middle) < s->node_free[j])
             low = middle + 1;
         else
             high = middle;
     }
-    return low < s->row[s->node_free[i] + 1] && s->col[low] == s->node_free[j] ? (int32_t)(low - row) : -1;
+    return low < s->row[s->node_free[i] + 1] && space_column(s, s->node_free[i], low) == s->node_free[j]
+               ? (int32_t)(low - row)
+               : -1;
 }
 
 /* Offsets of a tie in the pattern that there is; 0: it has no entries for it. */

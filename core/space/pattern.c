@@ -221,13 +221,17 @@ static void locate_carrier(builder *b, int64_t c)
 /* Rows of carrier c from entry `at` on; returns where they end. */
 static int64_t write_rows(space *s, const space_graph *g, int64_t c, int64_t at)
 {
+    const int64_t first = s->n_col;
+
     for (int64_t r = s->node_free[c]; r < s->node_free[c + 1]; r++) {
         s->row[r] = at;
+        s->col_shift[r] = first - at;
         for (int64_t k = g->start[c]; k < g->start[c + 1]; k++) {
             int32_t j = g->list[k];
 
-            for (int64_t f = s->node_free[j]; f < s->node_free[j + 1]; f++)
-                s->col[at++] = f;
+            for (int64_t f = s->node_free[j]; f < s->node_free[j + 1] && r == s->node_free[c]; f++)
+                s->col[s->n_col++] = (int32_t)f;
+            at += g->unknowns[j];
             if (s->unused)
                 memset(s->unused + at - g->unknowns[j], g->spare[k], (size_t)g->unknowns[j]);
         }
@@ -235,19 +239,22 @@ static int64_t write_rows(space *s, const space_graph *g, int64_t c, int64_t at)
     return at;
 }
 
-static int64_t count_entries(const space_graph *g, int64_t n_carrier)
+/* Entries, and those that the carriers have once. */
+static int64_t count_entries(const space_graph *g, int64_t n_carrier, int64_t *once)
 {
     int64_t n = 0;
 
+    *once = 0;
     for (int64_t c = 0; c < n_carrier; c++)
         for (int64_t k = g->start[c]; k < g->start[c + 1]; k++)
             n += (int64_t)g->unknowns[c] * g->unknowns[g->list[k]];
+    *once += g->unknowns[c] ? g->unknowns[g->list[k]] : 0;
     return n;
 }
 
 static int build(builder *b, space *s, error *err)
 {
-    int64_t entries, at = 0;
+    int64_t entries, once, at = 0;
 
     if (n_groups(s) > INT32_MAX)
         return error_set(err, ERR_MEMORY,
@@ -259,10 +266,12 @@ static int build(builder *b, space *s, error *err)
     }
     TRY(open_builder(b, s, err));
     TRY(build_graph(b, err));
-    entries = count_entries(&b->graph, s->n_carrier);
+    entries = count_entries(&b->graph, s->n_carrier, &once);
     ARENA_NEW(&s->pattern_memory, s->row, s->n_free + 1, err);
     ARENA_NEW(&s->pattern_memory, s->more_pair, space_more_pairs(s) + 1, err);
-    ARENA_NEW(&s->pattern_memory, s->col, entries, err);
+    ARENA_NEW(&s->pattern_memory, s->col, once + 1, err);
+    ARENA_NEW(&s->pattern_memory, s->col_shift, s->n_free, err);
+    s->n_col = 0;
     if (s->n_spare)
         ARENA_NEW(&s->pattern_memory, s->unused, entries, err);
     for (int64_t c = 0; c < s->n_carrier; c++) {

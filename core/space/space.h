@@ -71,7 +71,10 @@ typedef struct space {
     int64_t n_row_node;
 
     /* Matrix pattern over free unknowns; all unknowns of two carriers of one cell couple. */
-    int64_t *row, *col; /* [n_free + 1], [row[n_free]]                                */
+    int64_t *row; /* [n_free + 1] */
+    /* All rows of a carrier have the same columns, which are kept once: see space_column. */
+    int32_t *col;
+    int64_t *col_shift, n_col; /* [n_free]; entries of col */
     /* Of each group [size^2]: offset of carrier j's columns in the rows of carrier i, or -1. */
     int32_t *pair;      /* of cells */
     int32_t *more_pair; /* of attached cells, then of links */
@@ -85,6 +88,12 @@ typedef struct space {
     int outdated; /* groups have changed since the pattern was built */
     arena memory, attached_memory, pattern_memory;
 } space;
+
+/* Column of entry k of a row. */
+static inline int32_t space_column(const space *s, int64_t row, int64_t k)
+{
+    return s->col[k + s->col_shift[row]];
+}
 
 int space_find_field(const space *s, const char *name); /* index or -1 */
 

@@ -108,7 +108,7 @@ static void kernel_blocks(opened *k, const printed_state *state, printed_blocks 
 
         b->r[row][s->dof_node[d]] = sys->residual[d];
         for (int64_t e = s->row[i]; e < s->row[i + 1]; e++) {
-            int32_t c = s->dof_of[s->col[e]];
+            int32_t c = s->dof_of[space_column(s, i, e)];
 
             b->j[row][component_of(s, c)][s->dof_node[d] * b->n + s->dof_node[c]] = sys->linear.value[e];
         }

@@ -154,7 +154,7 @@ static void kernel_blocks(opened *k, const bodies_state *state, bodies_blocks *b
 
         b->r[row][slot_of(s, d)] = sys->residual[d];
         for (int64_t e = s->row[i]; e < s->row[i + 1]; e++) {
-            int32_t c = s->dof_of[s->col[e]], col = component_of(s, c);
+            int32_t c = s->dof_of[space_column(s, i, e)], col = component_of(s, c);
 
             b->j[row][col][slot_of(s, d) * b->n[col] + slot_of(s, c)] = sys->linear.value[e];
         }

@@ -142,7 +142,7 @@ static void check_pattern(const char *how)
             const size_t entries = (size_t)s->row[s->n_free];
             const void *now[] = {s->row, s->col, s->unused, s->pair, s->more_pair, s->tie_pair};
             const size_t bytes[] = {((size_t)s->n_free + 1) * sizeof *s->row,
-                                    entries * sizeof *s->col,
+                                    (size_t)s->n_col * sizeof *s->col,
                                     s->unused ? entries : 0,
                                     (size_t)(s->mesh->n_cell * cell) * sizeof *s->pair,
                                     (size_t)space_more_pairs(s) * sizeof *s->more_pair,

@@ -20,7 +20,7 @@ static void fill(const space *s, double *value, double shift)
 {
     for (int64_t i = 0; i < s->n_free; i++)
         for (int64_t k = s->row[i]; k < s->row[i + 1]; k++) {
-            int64_t j = s->col[k];
+            int64_t j = space_column(s, i, k);
 
             value[k] = i == j ? 4 + shift : 1.0 / (1 + fabs((double)(i - j))) * (i < j ? -0.8 : -0.6);
         }
@@ -71,7 +71,7 @@ static double residual(const linear *l, const double *b, const double *x)
         double d = b[i];
 
         for (int64_t k = l->a.row[i]; k < l->a.row[i + 1]; k++)
-            d -= l->value[k] * x[l->a.col[k]];
+            d -= l->value[k] * x[pf_column(&l->a, i, k)];
         r += d * d;
         size += b[i] * b[i];
     }

@@ -87,8 +87,8 @@ static void pattern_matches_brute_force(void **state)
                 n += couple[i][j];
             assert_int_equal(n, s.row[i + 1] - s.row[i]);
             for (int64_t e = s.row[i]; e < s.row[i + 1]; e++) {
-                assert_true(couple[i][s.col[e]]);
-                assert_true(e == s.row[i] || s.col[e] > s.col[e - 1]);
+                assert_true(couple[i][space_column(&s, i, e)]);
+                assert_true(e == s.row[i] || space_column(&s, i, e) > space_column(&s, i, e - 1));
             }
         }
         space_destroy(&s);
