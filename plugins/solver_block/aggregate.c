@@ -139,6 +139,8 @@ void aggregate(const sparse *a, const uint8_t *active, double strength, sparse *
         for (int32_t i = 0; i < a->n; i++)
             for (int64_t k = a->row[i]; k < a->row[i + 1]; k++)
                 diagonal[i] += a->col[k] == i ? a->value[k] : 0;
+        for (int32_t i = 0; active && i < a->n; i++)
+            diagonal[i] = active[i] ? diagonal[i] : INFINITY; /* nothing couples strongly to it */
         prolong->n = a->n;
         prolong->n_col = gather(a, active, diagonal, strength, of);
         radius = scale_filtered(a, diagonal, strength, value);
