@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "levels.h"
+#include "galerkin.h"
 
 #include <umfpack.h>
 
@@ -71,70 +72,6 @@ static void activate(const sparse *prolong, const uint8_t *fine, int b, uint8_t 
         for (int64_t k = prolong->row[i]; k < prolong->row[i + 1]; k++)
             for (int c = 0; c < b; c++)
                 coarse[(int64_t)prolong->col[k] * b + c] |= fine[(int64_t)i * b + c];
-}
-
-/* Row i of R A P; where[] finds columns from `first` on. */
-static int64_t galerkin_row(const block_matrix *a, const uint8_t *active, const sparse *prolong,
-                            const sparse *restrict_, int32_t i, int64_t first, int64_t *where, int32_t *col,
-                            float *value)
-{
-    int b = a->b, bb = b * b;
-    int64_t n = first;
-
-    for (int64_t m = restrict_->row[i]; m < restrict_->row[i + 1]; m++) {
-        int32_t f = restrict_->col[m];
-
-        for (int64_t k = a->row[f]; k < a->row[f + 1]; k++) {
-            int32_t g = a->col[k];
-            float block[9];
-
-            for (int e = 0; value && e < bb; e++)
-                block[e] = active[(int64_t)f * b + e % b] && active[(int64_t)g * b + e / b]
-                               ? a->value[k * bb + e] * (float)restrict_->value[m]
-                               : 0;
-            for (int64_t h = prolong->row[g]; h < prolong->row[g + 1]; h++) {
-                int32_t j = prolong->col[h];
-                float share = (float)prolong->value[h];
-
-                if (where[j] < first) {
-                    where[j] = n;
-                    if (value) {
-                        col[n] = j;
-                        memset(value + n * bb, 0, (size_t)bb * sizeof *value);
-                    }
-                    n++;
-                }
-                for (int e = 0; value && e < bb; e++)
-                    value[where[j] * bb + e] += share * block[e];
-            }
-        }
-    }
-    return n;
-}
-
-/* A of the next level. */
-static void galerkin(const block_matrix *a, const uint8_t *active, const sparse *prolong, const sparse *restrict_,
-                     block_matrix *c, pool *p)
-{
-    pool scratch = {0};
-    int64_t *where;
-
-    *c = (block_matrix){.n = prolong->n_col, .b = a->b};
-    TAKE(&scratch, where, c->n + 1);
-    TAKE(p, c->row, c->n + 1);
-    TAKE(p, c->diagonal, c->n + 1);
-    p->failed |= scratch.failed;
-    for (int pass = 0; pass < 2 && !p->failed; pass++) {
-        memset(where, 0xff, (size_t)c->n * sizeof *where);
-        for (int32_t i = 0; i < c->n; i++)
-            c->row[i + 1] = galerkin_row(a, active, prolong, restrict_, i, c->row[i], where, pass ? c->col : NULL,
-                                         pass ? c->value : NULL);
-        if (pass)
-            break;
-        TAKE(p, c->col, c->row[c->n] + 1);
-        TAKE(p, c->value, c->row[c->n] * a->b * a->b + 1);
-    }
-    pool_free(&scratch);
 }
 
 /* Columns of a row ascend, as the factorisation expects. */
@@ -287,7 +224,7 @@ static void next_level(levels *l, const block_matrix *a, const uint8_t *active, 
     if (p->failed)
         return;
     activate(prolong, active, b, n->active);
-    galerkin(a, active, prolong, restrict_, &n->a, p);
+    galerkin(a, active, prolong, restrict_, l->s->n_thread, &n->a, p);
     if (!p->failed)
         close_level(n);
 }
@@ -339,8 +276,9 @@ void levels_destroy(levels *l)
 }
 
 /* y = q x, with the same share for all places of a block, of those that are active. */
-static void apply_shares(const sparse *q, int b, const uint8_t *active, const float *x, float *y)
+static void apply_shares(const sparse *q, int b, int n_thread, const uint8_t *active, const float *x, float *y)
 {
+#pragma omp parallel for num_threads(n_thread) schedule(static)
     for (int32_t i = 0; i < q->n; i++)
         for (int c = 0; c < b; c++) {
             double v = 0;
@@ -352,11 +290,11 @@ static void apply_shares(const sparse *q, int b, const uint8_t *active, const fl
 }
 
 /* One iteration by the incomplete factors: where convection prevails over viscosity Gauss-Seidel diverges. */
-static void relax(const velocity_level *l)
+static void relax(const velocity_level *l, int n_thread)
 {
     int64_t n = (int64_t)l->a.n * l->a.b;
 
-    block_multiply(&l->a, 1, l->x, l->r);
+    block_multiply(&l->a, n_thread, l->x, l->r);
     for (int64_t i = 0; i < n; i++)
         l->r[i] = l->b[i] - l->r[i];
     ilu_solve(&l->factors, 1, l->r, l->r);
@@ -383,13 +321,14 @@ void levels_correct(levels *l, const float *q, float *u)
 
     for (int64_t i = 0; i < (int64_t)s->f.n * b; i++)
         l->r[i] = s->active[i] ? q[i] : 0;
-    apply_shares(&l->restrict_, b, l->level[0].active, l->r, l->level[0].b);
+    apply_shares(&l->restrict_, b, s->n_thread, l->level[0].active, l->r, l->level[0].b);
     for (int k = 0; k < last; k++)
-        apply_shares(&l->level[k].restrict_, b, l->level[k + 1].active, l->level[k].b, l->level[k + 1].b);
+        apply_shares(&l->level[k].restrict_, b, s->n_thread, l->level[k + 1].active, l->level[k].b,
+                     l->level[k + 1].b);
     solve_coarse(l, &l->level[last]);
     for (int k = last - 1; k >= 0; k--) {
-        apply_shares(&l->level[k].prolong, b, l->level[k].active, l->level[k + 1].x, l->level[k].x);
-        relax(&l->level[k]);
+        apply_shares(&l->level[k].prolong, b, s->n_thread, l->level[k].active, l->level[k + 1].x, l->level[k].x);
+        relax(&l->level[k], s->n_thread);
     }
-    apply_shares(&l->prolong, b, s->active, l->level[0].x, u);
+    apply_shares(&l->prolong, b, s->n_thread, s->active, l->level[0].x, u);
 }

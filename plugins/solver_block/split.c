@@ -235,34 +235,66 @@ void split_analyze(split *s, const pf_csr *a, int pressure, int n_thread, pool *
     TAKE(p, s->inverse_diagonal, (int64_t)s->f.n * s->b);
 }
 
+/* Entries of one row. */
+static void fill_row(split *s, const pf_csr *a, int32_t i, int r, const int32_t *where)
+{
+    int b = s->b;
+    int64_t row = s->row_of[(int64_t)i * b + r];
+    float *f = s->f.value + s->f.row[i] * b * b + r, *g = s->g + s->g_row[i] * b + r;
+
+    for (int64_t k = a->row[row]; k < a->row[row + 1]; k++) {
+        int64_t j = a->col[k];
+        int32_t block = s->block[j];
+
+        if (block >= 0)
+            f[(int64_t)where[block] * b * b + s->slot[j] * b] = (float)a->value[k];
+        else
+            g[(int64_t)where[s->f.n - 1 - block] * b] = (float)a->value[k];
+    }
+}
+
+/* The same of all three rows of a block, whose columns are the same. */
+static void fill_three_rows(split *s, const pf_csr *a, int32_t i, const int32_t *where)
+{
+    const int32_t *row = s->row_of + (int64_t)i * 3;
+    const double *v[3] = {a->value + a->row[row[0]], a->value + a->row[row[1]], a->value + a->row[row[2]]};
+    const int64_t *col = a->col + a->row[row[0]], n = a->row[row[0] + 1] - a->row[row[0]];
+    float *f = s->f.value + s->f.row[i] * 9, *g = s->g + s->g_row[i] * 3;
+
+    for (int64_t k = 0; k < n; k++) {
+        int32_t block = s->block[col[k]];
+        float *to = block >= 0 ? f + where[block] * 9 + s->slot[col[k]] * 3 : g + where[s->f.n - 1 - block] * 3;
+
+        for (int r = 0; r < 3; r++)
+            to[r] = (float)v[r][k];
+    }
+}
+
 /* Rows of one block, of F and G. */
 static void fill_block(split *s, const pf_csr *a, int32_t i, int32_t *where)
 {
     int b = s->b;
-    int32_t *where_p = where + s->f.n;
+    const int32_t *rows = s->row_of + (int64_t)i * b;
+    int whole = b == 3 && rows[0] >= 0 && rows[1] >= 0 && rows[2] >= 0 &&
+                a->row[rows[1] + 1] - a->row[rows[1]] == a->row[rows[0] + 1] - a->row[rows[0]] &&
+                a->row[rows[2] + 1] - a->row[rows[2]] == a->row[rows[0] + 1] - a->row[rows[0]];
     float *diagonal = s->f.value + s->f.diagonal[i] * b * b;
 
     for (int64_t k = s->f.row[i]; k < s->f.row[i + 1]; k++)
         where[s->f.col[k]] = (int32_t)(k - s->f.row[i]);
     for (int64_t k = s->g_row[i]; k < s->g_row[i + 1]; k++)
-        where_p[s->g_col[k]] = (int32_t)(k - s->g_row[i]);
+        where[s->f.n + s->g_col[k]] = (int32_t)(k - s->g_row[i]);
     memset(s->f.value + s->f.row[i] * b * b, 0, (size_t)((s->f.row[i + 1] - s->f.row[i]) * b * b) * sizeof(float));
+    if (whole)
+        fill_three_rows(s, a, i, where);
     for (int r = 0; r < b; r++) {
-        int64_t row = s->row_of[(int64_t)i * b + r];
         float *d = &s->inverse_diagonal[(int64_t)i * b + r];
 
-        s->active[(int64_t)i * b + r] = row >= 0 && !a->unknowns->idle[row];
-        if (row < 0)
+        s->active[(int64_t)i * b + r] = rows[r] >= 0 && !a->unknowns->idle[rows[r]];
+        if (rows[r] < 0)
             diagonal[r * b + r] = 1;
-        for (int64_t k = row < 0 ? 0 : a->row[row]; k < (row < 0 ? 0 : a->row[row + 1]); k++) {
-            int64_t j = a->col[k];
-            int32_t block = s->block[j];
-
-            if (block >= 0)
-                s->f.value[(s->f.row[i] + where[block]) * b * b + s->slot[j] * b + r] = (float)a->value[k];
-            else
-                s->g[(s->g_row[i] + where_p[-1 - block]) * b + r] = (float)a->value[k];
-        }
+        else if (!whole)
+            fill_row(s, a, i, r, where);
         *d = fabsf(diagonal[r * b + r]) > 1e-30F && s->active[(int64_t)i * b + r] ? 1 / diagonal[r * b + r] : 1;
     }
 }

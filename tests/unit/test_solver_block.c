@@ -282,8 +282,8 @@ static void products_and_transposes_are_those_of_dense_matrices(void **state)
     (void)state;
     aggregate(&a, NULL, 0.02, &q, &p);
     sparse_transpose(&q, &t, &p);
-    sparse_product(&a, &q, &aq, &p);
-    sparse_product(&t, &aq, &taq, &p);
+    sparse_product(&a, &q, 1, &aq, &p);
+    sparse_product(&t, &aq, 2, &taq, &p);
     assert_false(p.failed);
     assert_int_equal(t.n, q.n_col);
     assert_int_equal(taq.n, q.n_col);
