@@ -28,8 +28,8 @@ enum { ITERATIVE_MOST = 150 };
 /* Part of the residual at which an iteration begins anew: far above round-off in single precision. */
 #define ROUND 1e-5
 
-/* An iterative solver is set up anew where it takes so many more iterations than usual. */
-enum { TIRED = 6 };
+/* Iterations of a rough answer. */
+enum { ROUGH = 6 };
 
 static int precondition(void *linear_, const double *b, double *x, error *err)
 {
@@ -202,7 +202,7 @@ int linear_apply(linear *l, double *b, double *x, error *err)
     double reached;
 
     prepare(l, b, approximates(l));
-    return approximates(l) ? iterate(l, b, x, 0.1, TIRED, &reached, err) : precondition(l, b, x, err);
+    return approximates(l) ? iterate(l, b, x, 0.1, ROUGH, &reached, err) : precondition(l, b, x, err);
 }
 
 /* Backward error |b - A z| / (| |A||z| | + |b|) of what the solver returns (Oettli and Prager 1964); infinite if
@@ -305,18 +305,15 @@ static int replace(linear *l, double *b, double *x, double tol, double reached, 
     return solve_by_factors(l, b, x, tol, err);
 }
 
-/* Solves with what is set up.  The iteration is stopped every now and then and goes on from the residual as it
- * really is: its own product may be one in single precision, and what is begun anew there costs hardly an iteration
- * more. */
-static int refine(linear *l, const double *b, double *x, double tol, int limit, double *reached, error *err)
+/* Goes on from x, which has left l->b = b - A x, *reached of |b|, with what is set up.  The iteration is stopped
+ * every now and then and goes on from the residual as it really is: its own product may be one in single precision,
+ * and what is begun anew there costs hardly an iteration more. */
+static int refine(linear *l, double *x, double tol, int limit, double *reached, int *n_iteration, error *err)
 {
     int64_t n = l->a.n;
     int had = l->stats.gmres_iterations;
     double last;
 
-    memset(x, 0, (size_t)n * sizeof *x);
-    memcpy(l->b, b, (size_t)n * sizeof *b);
-    *reached = 1;
     do {
         double part;
 
@@ -326,7 +323,8 @@ static int refine(linear *l, const double *b, double *x, double tol, int limit, 
         *reached *= part;
         vector_add(n, 1, l->dx, x);
         memcpy(l->b, l->r, (size_t)n * sizeof *l->b);
-    } while (*reached > tol && *reached < 0.5 * last && l->stats.gmres_iterations - had < limit);
+        *n_iteration = l->stats.gmres_iterations - had;
+    } while (*reached > tol && *reached < 0.5 * last && *n_iteration < limit);
     return 0;
 }
 
@@ -345,27 +343,31 @@ static int update(linear *l, error *err)
 
 static int solve_by_iteration(linear *l, double *b, double *x, double tol, error *err)
 {
-    double reached = INFINITY, solve_flops = 4 * l->stats.cost.fill;
-    int had = l->stats.gmres_iterations;
+    const double price = l->stats.cost.flops / (4 * l->stats.cost.fill), expected = -l->rate * log10(tol);
+    double reached = 1, before;
+    int n;
 
     if (!l->row_scale || !l->factored)
         TRY(linear_measure(l, err));
     prepare(l, b, 1);
-    if (l->factored && !l->fresh && l->spent * solve_flops < l->stats.cost.flops) {
+    memset(x, 0, (size_t)l->a.n * sizeof *x);
+    memcpy(l->b, b, (size_t)l->a.n * sizeof *b);
+    if (l->factored && !l->fresh && l->spent < price) {
         int spent = l->spent;
 
         TRY(update(l, err));
-        TRY(refine(l, b, x, tol, 2 * l->usual + TIRED, &reached, err));
-        had = l->stats.gmres_iterations - had;
-        l->spent = spent + (had > l->usual ? had - l->usual : 0);
+        TRY(refine(l, x, tol, (int)(expected + price) + 1, &reached, &n, err));
+        l->spent = spent + (int)fmax(0, n - expected);
         if (reached <= 1.01 * tol)
             return 0;
+        l->spent += (int)price + 1;
     }
     if (!l->fresh)
         TRY(set_up(l, err));
-    had = l->stats.gmres_iterations;
-    TRY(refine(l, b, x, tol, ITERATIVE_MOST, &reached, err));
-    l->usual = l->stats.gmres_iterations - had;
+    before = reached;
+    TRY(refine(l, x, tol, ITERATIVE_MOST, &reached, &n, err));
+    if (reached < 0.1 * before)
+        l->rate = n / log10(before / reached);
     l->spent = 0;
     l->stats.worst_residual = fmax(l->stats.worst_residual, reached);
     return reached <= 1.01 * tol ? 0 : replace(l, b, x, tol, reached, err);

@@ -47,7 +47,7 @@ typedef struct linear {
     int gave_up;            /* the iterative solver failed once               */
     int max_iterations;     /* of GMRES with old factors; 0: factor every matrix        */
     int spent;              /* GMRES iterations since the last factorisation, beyond what fresh ones take */
-    int usual;              /* iterations of the iterative solver, freshly set up */
+    double rate;            /* iterations that the iterative solver, freshly set up, takes for a digit */
     double memory_limit;    /* bytes                                                    */
     double *row_scale;      /* [n] by which residuals count in an iterative solver, see measure.c */
     unknowns rows;

@@ -17,7 +17,7 @@ typedef struct packed {
     arena memory;
 } packed;
 
-/* The structure; p->a is the matrix itself where no entry is unused. */
+/* The structure; the values are those of the matrix itself where no entry is unused. */
 int packed_structure(packed *p, const space *s, const pf_csr *a, error *err);
 /* Whether it is still that of the space. */
 int packed_holds(const packed *p, const space *s);

@@ -246,9 +246,10 @@ static int64_t count_entries(const space_graph *g, int64_t n_carrier, int64_t *o
 
     *once = 0;
     for (int64_t c = 0; c < n_carrier; c++)
-        for (int64_t k = g->start[c]; k < g->start[c + 1]; k++)
+        for (int64_t k = g->start[c]; k < g->start[c + 1]; k++) {
             n += (int64_t)g->unknowns[c] * g->unknowns[g->list[k]];
-    *once += g->unknowns[c] ? g->unknowns[g->list[k]] : 0;
+            *once += g->unknowns[c] ? g->unknowns[g->list[k]] : 0;
+        }
     return n;
 }
 

@@ -139,6 +139,8 @@ void aggregate(const sparse *a, const uint8_t *active, double strength, sparse *
         for (int32_t i = 0; i < a->n; i++)
             for (int64_t k = a->row[i]; k < a->row[i + 1]; k++)
                 diagonal[i] += a->col[k] == i ? a->value[k] : 0;
+        for (int32_t i = 0; active && i < a->n; i++)
+            diagonal[i] = active[i] ? diagonal[i] : INFINITY; /* nothing couples strongly to it */
         prolong->n = a->n;
         prolong->n_col = gather(a, active, diagonal, strength, of);
         radius = scale_filtered(a, diagonal, strength, value);
@@ -168,41 +170,57 @@ void sparse_transpose(const sparse *a, sparse *t, pool *p)
         }
 }
 
-void sparse_product(const sparse *a, const sparse *b, sparse *c, pool *p)
+/* Row i of a b; where[] finds columns from `first` on. */
+static int64_t product_row(const sparse *a, const sparse *b, int32_t i, int64_t first, int64_t *where, int32_t *col,
+                           double *value)
+{
+    int64_t n = first;
+
+    for (int64_t k = a->row[i]; k < a->row[i + 1]; k++)
+        for (int64_t m = b->row[a->col[k]]; m < b->row[a->col[k] + 1]; m++) {
+            int32_t j = b->col[m];
+
+            if (where[j] < first) {
+                where[j] = n;
+                if (col) {
+                    col[n] = j;
+                    value[n] = 0;
+                }
+                n++;
+            }
+            if (col)
+                value[where[j]] += a->value[k] * b->value[m];
+        }
+    return n;
+}
+
+void sparse_product(const sparse *a, const sparse *b, int n_thread, sparse *c, pool *p)
 {
     pool scratch = {0};
-    int64_t *where;
+    int64_t **where = pool_markers(&scratch, n_thread, b->n_col);
 
     *c = (sparse){.n = a->n, .n_col = b->n_col};
-    TAKE(&scratch, where, b->n_col + 1);
     TAKE(p, c->row, a->n + 1);
     p->failed |= scratch.failed;
     for (int pass = 0; pass < 2 && !p->failed; pass++) {
-        int64_t n = 0;
+#pragma omp parallel for num_threads(n_thread) schedule(static, 1)
+        for (int t = 0; t < n_thread; t++) {
+            int64_t n = 0;
 
-        memset(where, 0xff, (size_t)b->n_col * sizeof *where);
-        for (int32_t i = 0; i < a->n; i++) {
-            int64_t first = n;
+            memset(where[t], 0xff, (size_t)b->n_col * sizeof **where);
+            for (ROWS_OF_THREAD(i, a->n, t, n_thread)) {
+                int64_t first = pass ? c->row[i] : n;
 
-            for (int64_t k = a->row[i]; k < a->row[i + 1]; k++)
-                for (int64_t m = b->row[a->col[k]]; m < b->row[a->col[k] + 1]; m++) {
-                    int32_t j = b->col[m];
-
-                    if (where[j] < first) {
-                        where[j] = n;
-                        if (pass)
-                            c->col[n] = j;
-                        n++;
-                    }
-                    if (pass)
-                        c->value[where[j]] += a->value[k] * b->value[m];
-                }
-            c->row[i + 1] = n;
+                n = product_row(a, b, i, first, where[t], c->col, c->value);
+                if (!pass)
+                    c->row[i + 1] = n - first;
+            }
         }
-        if (!pass) {
-            TAKE(p, c->col, n + 1);
-            TAKE(p, c->value, n + 1);
-        }
+        if (pass)
+            break;
+        rows_begin(c->n, c->row);
+        TAKE(p, c->col, c->row[c->n] + 1);
+        TAKE(p, c->value, c->row[c->n] + 1);
     }
     pool_free(&scratch);
 }

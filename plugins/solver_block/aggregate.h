@@ -12,6 +12,6 @@
 void aggregate(const sparse *a, const uint8_t *active, double strength, sparse *prolong, pool *p);
 void sparse_transpose(const sparse *a, sparse *t, pool *p);
 /* c = a b */
-void sparse_product(const sparse *a, const sparse *b, sparse *c, pool *p);
+void sparse_product(const sparse *a, const sparse *b, int n_thread, sparse *c, pool *p);
 
 #endif

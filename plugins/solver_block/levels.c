@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "levels.h"
+#include "galerkin.h"
 
 #include <umfpack.h>
 
@@ -8,7 +9,6 @@
 
 enum { COARSEST = 500 }; /* blocks */
 #define STRENGTH 0.02
-enum { SWEEPS = 3 }; /* they cost little, as all levels together are a twentieth of the velocities */
 
 /* The block of a field (and of a component) at a node, or -1. */
 static int32_t block_at(const split *s, int64_t group, int field, int slot)
@@ -74,79 +74,33 @@ static void activate(const sparse *prolong, const uint8_t *fine, int b, uint8_t 
                 coarse[(int64_t)prolong->col[k] * b + c] |= fine[(int64_t)i * b + c];
 }
 
-/* Row i of R A P; where[] finds columns from `first` on. */
-static int64_t galerkin_row(const block_matrix *a, const uint8_t *active, const sparse *prolong,
-                            const sparse *restrict_, int32_t i, int64_t first, int64_t *where, int32_t *col,
-                            float *value)
+/* Columns of a row ascend, as the factorisation expects. */
+static void sort_row(block_matrix *a, int32_t i)
 {
-    int b = a->b, bb = b * b;
-    int64_t n = first;
+    int bb = a->b * a->b;
 
-    for (int64_t m = restrict_->row[i]; m < restrict_->row[i + 1]; m++) {
-        int32_t f = restrict_->col[m];
+    for (int64_t k = a->row[i] + 1; k < a->row[i + 1]; k++) {
+        int32_t col = a->col[k];
+        int64_t to = k;
+        float block[9];
 
-        for (int64_t k = a->row[f]; k < a->row[f + 1]; k++) {
-            int32_t g = a->col[k];
-            float block[9];
-
-            for (int e = 0; value && e < bb; e++)
-                block[e] = active[(int64_t)f * b + e % b] && active[(int64_t)g * b + e / b]
-                               ? a->value[k * bb + e] * (float)restrict_->value[m]
-                               : 0;
-            for (int64_t h = prolong->row[g]; h < prolong->row[g + 1]; h++) {
-                int32_t j = prolong->col[h];
-                float share = (float)prolong->value[h];
-
-                if (where[j] < first) {
-                    where[j] = n;
-                    if (value) {
-                        col[n] = j;
-                        memset(value + n * bb, 0, (size_t)bb * sizeof *value);
-                    }
-                    n++;
-                }
-                for (int e = 0; value && e < bb; e++)
-                    value[where[j] * bb + e] += share * block[e];
-            }
+        memcpy(block, a->value + k * bb, (size_t)bb * sizeof *block);
+        for (; to > a->row[i] && a->col[to - 1] > col; to--) {
+            a->col[to] = a->col[to - 1];
+            memcpy(a->value + to * bb, a->value + (to - 1) * bb, (size_t)bb * sizeof *block);
         }
+        a->col[to] = col;
+        memcpy(a->value + to * bb, block, (size_t)bb * sizeof *block);
     }
-    return n;
 }
 
-/* A of the next level. */
-static void galerkin(const block_matrix *a, const uint8_t *active, const sparse *prolong, const sparse *restrict_,
-                     block_matrix *c, pool *p)
-{
-    pool scratch = {0};
-    int64_t *where;
-
-    *c = (block_matrix){.n = prolong->n_col, .b = a->b};
-    TAKE(&scratch, where, c->n + 1);
-    TAKE(p, c->row, c->n + 1);
-    TAKE(p, c->diagonal, c->n + 1);
-    p->failed |= scratch.failed;
-    for (int pass = 0; pass < 2 && !p->failed; pass++) {
-        memset(where, 0xff, (size_t)c->n * sizeof *where);
-        for (int32_t i = 0; i < c->n; i++)
-            c->row[i + 1] = galerkin_row(a, active, prolong, restrict_, i, c->row[i], where, pass ? c->col : NULL,
-                                         pass ? c->value : NULL);
-        if (pass)
-            break;
-        TAKE(p, c->col, c->row[c->n] + 1);
-        TAKE(p, c->value, c->row[c->n] * a->b * a->b + 1);
-    }
-    pool_free(&scratch);
-}
-
-/* Places that do not take part get a row and a column of the identity; inverses of the diagonal blocks. */
+/* Places that do not take part get a row and a column of the identity. */
 static void close_level(velocity_level *l)
 {
     int b = l->a.b;
 
     for (int32_t i = 0; i < l->a.n; i++) {
-        double d[3][3] = {{0}}, det;
-        float *v = l->inverse + (int64_t)i * b * b;
-
+        sort_row(&l->a, i);
         for (int64_t k = l->a.row[i]; k < l->a.row[i + 1]; k++) {
             float *at = l->a.value + k * b * b;
 
@@ -155,19 +109,6 @@ static void close_level(velocity_level *l)
                 if (!l->active[(int64_t)i * b + e % b] || !l->active[(int64_t)l->a.col[k] * b + e / b])
                     at[e] = l->a.col[k] == i && e % b == e / b;
         }
-        for (int e = 0; e < b * b; e++)
-            d[e % b][e / b] = l->a.value[l->a.diagonal[i] * b * b + e];
-        if (b == 2)
-            d[2][2] = 1;
-        det = d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) -
-              d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) + d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
-        for (int r = 0; r < b; r++)
-            for (int c = 0; c < b; c++) {
-                int r1 = (c + 1) % 3, r2 = (c + 2) % 3, c1 = (r + 1) % 3, c2 = (r + 2) % 3;
-
-                v[c * b + r] = fabs(det) > 0 ? (float)((d[r1][c1] * d[r2][c2] - d[r1][c2] * d[r2][c1]) / det)
-                                             : (float)(r == c);
-            }
     }
 }
 
@@ -277,16 +218,27 @@ static void next_level(levels *l, const block_matrix *a, const uint8_t *active, 
 
     sparse_transpose(prolong, restrict_, p);
     TAKE(p, n->active, (int64_t)prolong->n_col * b + 1);
-    TAKE(p, n->inverse, (int64_t)prolong->n_col * b * b + 1);
     TAKE(p, n->x, (int64_t)prolong->n_col * b + 1);
     TAKE(p, n->b, (int64_t)prolong->n_col * b + 1);
     TAKE(p, n->r, (int64_t)prolong->n_col * b + 1);
     if (p->failed)
         return;
     activate(prolong, active, b, n->active);
-    galerkin(a, active, prolong, restrict_, &n->a, p);
+    galerkin(a, active, prolong, restrict_, l->s->n_thread, &n->a, p);
     if (!p->failed)
         close_level(n);
+}
+
+static void factor_level(velocity_level *l, pool *p)
+{
+    l->a.n_part = 1;
+    TAKE(p, l->a.part, 2);
+    if (p->failed)
+        return;
+    l->a.part[1] = l->a.n;
+    ilu_create(&l->factors, &l->a, p);
+    if (!p->failed)
+        ilu_factor(&l->factors, 1);
 }
 
 int levels_create(levels *l, const split *s)
@@ -310,6 +262,8 @@ int levels_create(levels *l, const split *s)
         if (l->memory.failed || n->prolong.n_col == n_kept || n->prolong.n_col > 0.8 * n->a.n)
             break;
         next_level(l, &n->a, n->active, &n->prolong, &n->restrict_);
+        if (!l->memory.failed)
+            factor_level(n, &l->memory);
     }
     return l->memory.failed ? PF_SOLVER_MEMORY : factor_coarse(l);
 }
@@ -322,8 +276,9 @@ void levels_destroy(levels *l)
 }
 
 /* y = q x, with the same share for all places of a block, of those that are active. */
-static void apply_shares(const sparse *q, int b, const uint8_t *active, const float *x, float *y)
+static void apply_shares(const sparse *q, int b, int n_thread, const uint8_t *active, const float *x, float *y)
 {
+#pragma omp parallel for num_threads(n_thread) schedule(static)
     for (int32_t i = 0; i < q->n; i++)
         for (int c = 0; c < b; c++) {
             double v = 0;
@@ -334,25 +289,17 @@ static void apply_shares(const sparse *q, int b, const uint8_t *active, const fl
         }
 }
 
-/* One sweep of Gauss-Seidel by blocks, backwards. */
-static void relax(const velocity_level *l)
+/* One iteration by the incomplete factors: where convection prevails over viscosity Gauss-Seidel diverges. */
+static void relax(const velocity_level *l, int n_thread)
 {
-    const block_matrix *a = &l->a;
-    int b = a->b;
+    int64_t n = (int64_t)l->a.n * l->a.b;
 
-    for (int32_t i = a->n; i-- > 0;) {
-        float r[3] = {0};
-
-        for (int64_t k = a->row[i]; k < a->row[i + 1]; k++)
-            for (int c = 0; c < b; c++)
-                for (int e = 0; e < b; e++)
-                    r[e] += a->value[k * b * b + c * b + e] * l->x[(int64_t)a->col[k] * b + c];
-        for (int e = 0; e < b; e++)
-            r[e] = l->b[(int64_t)i * b + e] - r[e];
-        for (int e = 0; e < b; e++)
-            for (int c = 0; c < b; c++)
-                l->x[(int64_t)i * b + e] += l->inverse[(int64_t)i * b * b + c * b + e] * r[c];
-    }
+    block_multiply(&l->a, n_thread, l->x, l->r);
+    for (int64_t i = 0; i < n; i++)
+        l->r[i] = l->b[i] - l->r[i];
+    ilu_solve(&l->factors, 1, l->r, l->r);
+    for (int64_t i = 0; i < n; i++)
+        l->x[i] += l->r[i];
 }
 
 static void solve_coarse(levels *l, const velocity_level *n)
@@ -374,14 +321,14 @@ void levels_correct(levels *l, const float *q, float *u)
 
     for (int64_t i = 0; i < (int64_t)s->f.n * b; i++)
         l->r[i] = s->active[i] ? q[i] : 0;
-    apply_shares(&l->restrict_, b, l->level[0].active, l->r, l->level[0].b);
+    apply_shares(&l->restrict_, b, s->n_thread, l->level[0].active, l->r, l->level[0].b);
     for (int k = 0; k < last; k++)
-        apply_shares(&l->level[k].restrict_, b, l->level[k + 1].active, l->level[k].b, l->level[k + 1].b);
+        apply_shares(&l->level[k].restrict_, b, s->n_thread, l->level[k + 1].active, l->level[k].b,
+                     l->level[k + 1].b);
     solve_coarse(l, &l->level[last]);
     for (int k = last - 1; k >= 0; k--) {
-        apply_shares(&l->level[k].prolong, b, l->level[k].active, l->level[k + 1].x, l->level[k].x);
-        for (int m = 0; m < SWEEPS; m++)
-            relax(&l->level[k]);
+        apply_shares(&l->level[k].prolong, b, s->n_thread, l->level[k].active, l->level[k + 1].x, l->level[k].x);
+        relax(&l->level[k], s->n_thread);
     }
-    apply_shares(&l->prolong, b, s->active, l->level[0].x, u);
+    apply_shares(&l->prolong, b, s->n_thread, s->active, l->level[0].x, u);
 }

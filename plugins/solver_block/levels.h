@@ -6,6 +6,7 @@
 #define SOLVER_BLOCK_LEVELS_H
 
 #include "aggregate.h"
+#include "ilu.h"
 #include "split.h"
 
 enum { LEVELS_MOST = 12 };
@@ -14,7 +15,7 @@ typedef struct velocity_level {
     block_matrix a;
     uint8_t *active;           /* [a.n][b]; places that are not have a row of the identity */
     sparse prolong, restrict_; /* from the next level, and its transpose: the same share for all b places */
-    float *inverse;            /* [a.n][b * b] of the diagonal blocks */
+    ilu factors;               /* incomplete */
     float *x, *b, *r;          /* [a.n][b] */
 } velocity_level;
 

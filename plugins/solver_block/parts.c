@@ -37,6 +37,22 @@ void pool_free(pool *p)
     p->failed = 0;
 }
 
+int64_t **pool_markers(pool *p, int n_thread, int64_t n)
+{
+    int64_t **where;
+
+    TAKE(p, where, n_thread);
+    for (int t = 0; t < n_thread && !p->failed; t++)
+        TAKE(p, where[t], n + 1);
+    return p->failed ? NULL : where;
+}
+
+void rows_begin(int32_t n, int64_t *row)
+{
+    for (int32_t i = 0; i < n; i++)
+        row[i + 1] += row[i];
+}
+
 typedef float f4 __attribute__((vector_size(16), aligned(4)));
 
 /* Rows low .. high - 1.  A column of a 3 x 3 block is read as four numbers, the last of which is not used. */

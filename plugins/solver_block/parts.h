@@ -19,6 +19,9 @@ void *pool_take(pool *p, int64_t count, size_t size); /* zeroed, 64-byte aligned
 void pool_free(pool *p);
 #define TAKE(p, to, count) ((to) = pool_take((p), (count), sizeof *(to)))
 
+/* Room for each thread to find columns in; NULL if there was none. */
+int64_t **pool_markers(pool *p, int n_thread, int64_t n);
+
 /* Rows of blocks b x b, in single precision, each column by column; columns ascend within a row. */
 typedef struct block_matrix {
     int32_t n, b;
@@ -41,6 +44,14 @@ typedef struct sparse {
     int32_t *col;
     double *value;
 } sparse;
+
+/* Rows of thread t of n_thread, which makes them in two passes: row[i+1] is a count first, then where i+1 begins.
+ */
+#define ROWS_OF_THREAD(i, n, t, n_thread)                                                                          \
+    int32_t i = (int32_t)((int64_t)(n) * (t) / (n_thread));                                                        \
+    i < (int32_t)((int64_t)(n) * ((t) + 1) / (n_thread));                                                          \
+    i++
+void rows_begin(int32_t n, int64_t *row);
 
 void sparse_multiply(const sparse *a, int n_thread, const double *x, double *y);
 

@@ -65,18 +65,28 @@ static void make_t(pressure *q, const split *s)
 {
     sparse *t = &q->t;
     pool scratch = {0};
-    int64_t *where;
+    int64_t **where = pool_markers(&scratch, s->n_thread, s->n_p);
     double trace = 0;
 
     *t = (sparse){.n = s->n_p, .n_col = s->n_p};
-    TAKE(&scratch, where, s->n_p + 1);
     TAKE(&q->memory, t->row, s->n_p + 1);
     q->memory.failed |= scratch.failed;
     for (int pass = 0; pass < 2 && !q->memory.failed; pass++) {
-        memset(where, 0xff, (size_t)s->n_p * sizeof *where);
-        for (int32_t i = 0; i < s->n_p; i++)
-            t->row[i + 1] = row_of_t(s, i, t->row[i], where, pass ? t->col : NULL, t->value);
+#pragma omp parallel for num_threads(s->n_thread) schedule(static, 1)
+        for (int k = 0; k < s->n_thread; k++) {
+            int64_t n = 0;
+
+            memset(where[k], 0xff, (size_t)s->n_p * sizeof **where);
+            for (ROWS_OF_THREAD(i, s->n_p, k, s->n_thread)) {
+                int64_t first = pass ? t->row[i] : n;
+
+                n = row_of_t(s, i, first, where[k], t->col, t->value);
+                if (!pass)
+                    t->row[i + 1] = n - first;
+            }
+        }
         if (!pass) {
+            rows_begin(t->n, t->row);
             TAKE(&q->memory, t->col, t->row[t->n] + 1);
             TAKE(&q->memory, t->value, t->row[t->n] + 1);
         }
@@ -147,9 +157,9 @@ static int make_levels(pressure *q, const split *s)
             break;
         sparse_transpose(&l->prolong, &l->restrict_, p);
         if (!p->failed)
-            sparse_product(&l->a, &l->prolong, &ap, p);
+            sparse_product(&l->a, &l->prolong, s->n_thread, &ap, p);
         if (!p->failed)
-            sparse_product(&l->restrict_, &ap, &q->level[q->n_level].a, p);
+            sparse_product(&l->restrict_, &ap, s->n_thread, &q->level[q->n_level].a, p);
         if (p->failed)
             return PF_SOLVER_MEMORY;
     }

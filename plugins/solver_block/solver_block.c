@@ -235,7 +235,7 @@ static const pf_solver solver = {
     .setup = setup,
     .solve = solve,
     .destroy = destroy,
-    .flags = PF_SOLVER_APPROXIMATE,
+    .flags = PF_SOLVER_APPROXIMATE | PF_SOLVER_SHARED_COLUMNS,
     .update = update,
     .multiply = multiply,
 };

@@ -71,7 +71,7 @@ static int is_between(const split *s, const int32_t *group_of, const int32_t *pa
     int between = a->unknowns->kind[g] != PF_ROWS_OF_NODE;
 
     for (int64_t k = a->row[r]; k < a->row[r + 1] && !between; k++) {
-        int64_t h = group_of[a->col[k]];
+        int64_t h = group_of[pf_column(a, r, k)];
 
         between = a->unknowns->kind[h] == PF_ROWS_OF_NODE && part_of[h] > part_of[g];
     }
@@ -111,7 +111,7 @@ static int64_t add_columns(const split *s, const int32_t *first_block, const int
     int64_t n = 0, last = -1;
 
     for (int64_t k = a->row[a->node[g]]; k < a->row[a->node[g] + 1]; k++) {
-        int64_t h = group_of[a->col[k]];
+        int64_t h = group_of[pf_column(a, a->node[g], k)];
 
         if (h == last)
             continue;
@@ -132,9 +132,9 @@ static int64_t add_pressures(const split *s, int64_t g, int32_t *to)
     int64_t n = 0;
 
     for (int64_t k = a->row[a->node[g]]; k < a->row[a->node[g] + 1]; k++)
-        if (s->block[a->col[k]] < 0) {
+        if (s->block[pf_column(a, a->node[g], k)] < 0) {
             if (to)
-                to[n] = -1 - s->block[a->col[k]];
+                to[n] = -1 - s->block[pf_column(a, a->node[g], k)];
             n++;
         }
     return n;
@@ -235,34 +235,67 @@ void split_analyze(split *s, const pf_csr *a, int pressure, int n_thread, pool *
     TAKE(p, s->inverse_diagonal, (int64_t)s->f.n * s->b);
 }
 
+/* Entries of one row. */
+static void fill_row(split *s, const pf_csr *a, int32_t i, int r, const int32_t *where)
+{
+    int b = s->b;
+    int64_t row = s->row_of[(int64_t)i * b + r];
+    float *f = s->f.value + s->f.row[i] * b * b + r, *g = s->g + s->g_row[i] * b + r;
+
+    for (int64_t k = a->row[row]; k < a->row[row + 1]; k++) {
+        int64_t j = pf_column(a, row, k);
+        int32_t block = s->block[j];
+
+        if (block >= 0)
+            f[(int64_t)where[block] * b * b + s->slot[j] * b] = (float)a->value[k];
+        else
+            g[(int64_t)where[s->f.n - 1 - block] * b] = (float)a->value[k];
+    }
+}
+
+/* The same of all three rows of a block, whose columns are the same. */
+static void fill_three_rows(split *s, const pf_csr *a, int32_t i, const int32_t *where)
+{
+    const int32_t *row = s->row_of + (int64_t)i * 3;
+    const double *v[3] = {a->value + a->row[row[0]], a->value + a->row[row[1]], a->value + a->row[row[2]]};
+    const int64_t n = a->row[row[0] + 1] - a->row[row[0]];
+    float *f = s->f.value + s->f.row[i] * 9, *g = s->g + s->g_row[i] * 3;
+
+    for (int64_t k = 0; k < n; k++) {
+        int64_t j = pf_column(a, row[0], a->row[row[0]] + k);
+        int32_t block = s->block[j];
+        float *to = block >= 0 ? f + where[block] * 9 + s->slot[j] * 3 : g + where[s->f.n - 1 - block] * 3;
+
+        for (int r = 0; r < 3; r++)
+            to[r] = (float)v[r][k];
+    }
+}
+
 /* Rows of one block, of F and G. */
 static void fill_block(split *s, const pf_csr *a, int32_t i, int32_t *where)
 {
     int b = s->b;
-    int32_t *where_p = where + s->f.n;
+    const int32_t *rows = s->row_of + (int64_t)i * b;
+    int whole = b == 3 && rows[0] >= 0 && rows[1] >= 0 && rows[2] >= 0 &&
+                a->row[rows[1] + 1] - a->row[rows[1]] == a->row[rows[0] + 1] - a->row[rows[0]] &&
+                a->row[rows[2] + 1] - a->row[rows[2]] == a->row[rows[0] + 1] - a->row[rows[0]];
     float *diagonal = s->f.value + s->f.diagonal[i] * b * b;
 
     for (int64_t k = s->f.row[i]; k < s->f.row[i + 1]; k++)
         where[s->f.col[k]] = (int32_t)(k - s->f.row[i]);
     for (int64_t k = s->g_row[i]; k < s->g_row[i + 1]; k++)
-        where_p[s->g_col[k]] = (int32_t)(k - s->g_row[i]);
+        where[s->f.n + s->g_col[k]] = (int32_t)(k - s->g_row[i]);
     memset(s->f.value + s->f.row[i] * b * b, 0, (size_t)((s->f.row[i + 1] - s->f.row[i]) * b * b) * sizeof(float));
+    if (whole)
+        fill_three_rows(s, a, i, where);
     for (int r = 0; r < b; r++) {
-        int64_t row = s->row_of[(int64_t)i * b + r];
         float *d = &s->inverse_diagonal[(int64_t)i * b + r];
 
-        s->active[(int64_t)i * b + r] = row >= 0 && !a->unknowns->idle[row];
-        if (row < 0)
+        s->active[(int64_t)i * b + r] = rows[r] >= 0 && !a->unknowns->idle[rows[r]];
+        if (rows[r] < 0)
             diagonal[r * b + r] = 1;
-        for (int64_t k = row < 0 ? 0 : a->row[row]; k < (row < 0 ? 0 : a->row[row + 1]); k++) {
-            int64_t j = a->col[k];
-            int32_t block = s->block[j];
-
-            if (block >= 0)
-                s->f.value[(s->f.row[i] + where[block]) * b * b + s->slot[j] * b + r] = (float)a->value[k];
-            else
-                s->g[(s->g_row[i] + where_p[-1 - block]) * b + r] = (float)a->value[k];
-        }
+        else if (!whole)
+            fill_row(s, a, i, r, where);
         *d = fabsf(diagonal[r * b + r]) > 1e-30F && s->active[(int64_t)i * b + r] ? 1 / diagonal[r * b + r] : 1;
     }
 }
@@ -279,7 +312,7 @@ static void fill_pressure(split *s, const pf_csr *a, int32_t i, int32_t *where)
     for (int64_t k = s->c.row[i]; k < s->c.row[i + 1]; k++)
         where_p[s->c.col[k]] = (int32_t)(k - s->c.row[i]);
     for (int64_t k = a->row[row]; k < a->row[row + 1]; k++) {
-        int64_t j = a->col[k];
+        int64_t j = pf_column(a, row, k);
         int32_t block = s->block[j];
 
         if (block >= 0)
