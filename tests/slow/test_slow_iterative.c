@@ -27,7 +27,7 @@ static void check_growth(const char *settings)
         print_message("# n = %d %s: %.1f iterations, %.0f bytes an unknown\n", n, settings, now, bytes);
         if (before > 0)
             assert_between(now / before, 0, 1.3);
-        assert_between(bytes, 0, 10000);
+        assert_between(bytes, 0, 7000);
         before = now;
     }
 }
