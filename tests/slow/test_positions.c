@@ -49,7 +49,7 @@ static cholmod_sparse *velocity_block(const problem *p, cholmod_common *c)
     t = cholmod_allocate_triplet((size_t)n, (size_t)n, (size_t)s->row[s->n_free], 1, CHOLMOD_REAL, c);
     for (int64_t i = 0; i < s->n_free; i++)
         for (int64_t e = s->row[i]; number[i] >= 0 && e < s->row[i + 1]; e++) {
-            int row = number[i], col = number[s->col[e]];
+            int row = number[i], col = number[space_column(s, i, e)];
 
             if (col < 0)
                 continue; /* entries of (i, j) and (j, i) add up to the symmetric part in the upper triangle */

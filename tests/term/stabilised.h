@@ -77,8 +77,8 @@ static inline double product(const opened *k, const double *y, const double *z)
 
     for (int64_t i = 0; i < s->n_free; i++)
         for (int64_t e = s->row[i]; e < s->row[i + 1]; e++)
-            if (is_velocity(s, s->dof_of[i]) && is_velocity(s, s->dof_of[s->col[e]]))
-                sum += y[s->dof_of[i]] * k->p.system.linear.value[e] * z[s->dof_of[s->col[e]]];
+            if (is_velocity(s, s->dof_of[i]) && is_velocity(s, s->dof_of[space_column(s, i, e)]))
+                sum += y[s->dof_of[i]] * k->p.system.linear.value[e] * z[s->dof_of[space_column(s, i, e)]];
     return sum;
 }
 

@@ -283,7 +283,7 @@ static void the_jacobian_knows_the_paths(void **state)
             assembly_run(&p->system.assembly, &at, p->system.residual, p->system.linear.value, 0, &err), 0);
         for (int64_t i = 0; i < s->n_free; i++)
             for (int64_t k = s->row[i]; k < s->row[i + 1]; k++)
-                product[s->dof_of[i]] += p->system.linear.value[k] * v[s->dof_of[s->col[k]]];
+                product[s->dof_of[i]] += p->system.linear.value[k] * v[s->dof_of[space_column(s, i, k)]];
         for (int64_t i = 0; i < s->n_free; i++) {
             int64_t d = s->dof_of[i];
 

@@ -56,7 +56,7 @@ static void forces_are_those_of_the_step_that_was_solved(void **state)
              "fluid { density = 1, viscosity = 0.1, gravity = {2,0} }\nterm 'continuity' {}\nterm 'momentum' {}\n"
              "particulate 'sharp'\nboundary { periodic = {'left','right'} }\nboundary '*' { u = {0,0} }\n"
              "particle { shape = disk{radius=0.15}, density = 2, at = {x0,0.4} }\n"
-             "time { scheme = 'bdf1', step = 0.05, stop = 1 }\n");
+             "time { scheme = 'bdf1', step = 0.05, stop = 1 }\nsolve { tolerance = 1e-11 }\n");
     for (int k = 0; k < 2; k++) {
         char file[300];
 
