@@ -76,6 +76,12 @@ typedef struct placement {
     arena memory;
 } placement;
 
+/* Cells that have the points of cut ones, though no body covers any of them: how near a body is, in sizes of a
+ * cell. Farther than a surface goes in a step: with 0.27 what changes the points shows as an error of the step, and
+ * steps that choose their length become a third as long.  No round number, as bodies often lie along the lines of
+ * the mesh. */
+#define BODY_RING 1.07
+
 /* Cells attached to bodies while each stays within a margin of where it was. */
 typedef struct envelope {
     int stamp;           /* another one for each                                     */

@@ -18,7 +18,7 @@
 #define NARROW 1.57
 #define FEW    0.2
 /* What of it a body needs for the cells that it is near to. */
-#define NEEDED 0.32
+#define NEEDED (BODY_RING + 0.05)
 
 /* Cells that share a facet with e, by the nodes that they have in common with it; `of` lists the cells at nodes. */
 static void find_neighbours(const space *s, const int64_t *start, const int32_t *of, int64_t e, uint8_t *common,

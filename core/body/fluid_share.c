@@ -10,11 +10,6 @@
 
 #include <string.h>
 
-/* How near, in sizes of a cell: farther than a surface goes in a step.  With a ring of 0.27 what changes the points
- * shows as an error of the step, and steps that choose their length become a third as long.  No round number, as
- * bodies often lie along the lines of the mesh. */
-#define RING 1.07
-
 /* Enters a cell, with the weights of all of it unless a body covers it. */
 static void enter(const bodies *b, placement *p, int32_t cell, int64_t attached)
 {
@@ -56,7 +51,7 @@ int share_weights(const bodies *b, placement *p, error *err)
             p->cut_weight[p->cut_of[e] * n + q] -= p->covered_weight[k * n + q];
     }
     for (int64_t a = 0; a < s->n_attached; a++)
-        if (p->covered_by[s->attached_cell[a]] < 0 && envelope_near(b, p, a, RING))
+        if (p->covered_by[s->attached_cell[a]] < 0 && envelope_near(b, p, a, BODY_RING))
             enter(b, p, s->attached_cell[a], a);
     return 0;
 }
