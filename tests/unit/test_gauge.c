@@ -73,7 +73,8 @@ static void level_of_an_enclosed_flow_is_free_round_coarse_bodies(void **state)
 
 static void level_is_held_by_an_opening(void **state)
 {
-    static const char *const boundary[] = {"boundary 'left' { natural = true }\n", "boundary 'top' { pressure = 0 }\n"};
+    static const char *const boundary[] = {"boundary 'left' { natural = true }\n",
+                                           "boundary 'top' { pressure = 0 }\n"};
 
     (void)state;
     for (int k = 0; k < 12; k++) {

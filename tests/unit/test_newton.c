@@ -138,7 +138,7 @@ static void linear_solutions_leave_a_part_of_what_the_step_leaves(void **state)
     assert_near(forcing(&f.sys, &o, &r, length, 1, 0), 3e-3, 1e-15); /* enough */
     assert_near(forcing(&f.sys, &o, &r, length, 1e-11, 1), 1e-2, 1e-15);
     assert_near(forcing(&f.sys, &o, &r, length, 1e-11, 2), 5e-6, 1e-15); /* 0.05 (1e-2)^2 */
-    assert_near(forcing(&f.sys, &o, &r, length, 1e-9, 3), 3e-5, 1e-15); /* enough */
+    assert_near(forcing(&f.sys, &o, &r, length, 1e-9, 3), 3e-5, 1e-15);  /* enough */
     assert_near(forcing(&f.sys, &o, &r, length, 1e-14, 3), 1e-6, 1e-15); /* the least */
     assert_near(forcing(&f.sys, &o, &r, length, 1e-14, 4), 0.05, 1e-15); /* after half a step */
     o.linear_tolerance = 1e-8;
