@@ -71,6 +71,11 @@ static int shares(const pf_solver *s)
     return LINEAR_HAS(s, flags) && (s->flags & PF_SOLVER_SHARED_COLUMNS);
 }
 
+int linear_holds(const linear *l)
+{
+    return shares(linear_method(l, l->at)) || packed_holds(&l->packed, l->space);
+}
+
 const pf_csr *linear_matrix(linear *l)
 {
     if (shares(linear_method(l, l->at)))
@@ -87,6 +92,8 @@ int linear_analyze(linear *l, int method, int *unfit, error *err)
     int status = 0;
 
     *unfit = 0;
+    if (method == METHOD_DIRECT)
+        l->band.factors = 0; /* those of before go with the analysis */
     l->stats.cost = (pf_solver_cost){0};
     if (!l->instance[method] && solver->create(&l->instance[method], l->n_thread, why, sizeof why))
         return error_set(err, ERR_MEMORY, "linear solver %s: %s", solver->name, why);

@@ -105,14 +105,14 @@ int gmres_solve(gmres *g, const double *b, double *x, double tol, int limit, dou
     int k = 0;
 
     memset(x, 0, (size_t)n * sizeof *x);
+    *reached = 0;
+    *n_iteration = 0;
     TRY(make_room(g, 0, err));
     h = g->h;
     memcpy(g->v[0], b, (size_t)n * sizeof *b);
     memcpy(g->r, b, (size_t)n * sizeof *b);
     scale_rows(g, g->v[0]);
     size = vector_norm(n, g->v[0]);
-    *reached = 0;
-    *n_iteration = 0;
     if (size == 0)
         return 0;
     e[0] = size;
@@ -132,7 +132,7 @@ int gmres_solve(gmres *g, const double *b, double *x, double tol, int limit, dou
         y[i] = e[i];
         for (int j = i + 1; j < k; j++)
             y[i] -= h[j][i] * y[j];
-        y[i] /= h[i][i];
+        y[i] = h[i][i] != 0 ? y[i] / h[i][i] : 0;
         vector_add(n, y[i], g->z[i], x);
     }
     operate(g, 1, x, g->r);

@@ -13,7 +13,7 @@ enum { GMRES_MOST = 200 };
 
 /* A system of n equations.  The residual is measured by |scale r|; scale NULL: 1. */
 typedef struct gmres {
-    const pf_csr *a;
+    const pf_csr *a; /* with shared columns */
     int n_thread;
     const double *scale;
     int (*apply)(void *ctx, const double *b, double *x, error *err); /* x = about A^-1 b */

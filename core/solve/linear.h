@@ -97,11 +97,22 @@ int linear_find(linear_choice *c, registry *r, const char *named, error *err);
 #define LINEAR_HAS(solver, member)                                                                                 \
     ((solver)->size >= offsetof(pf_solver, member) + sizeof(solver)->member && (solver)->member)
 
+/* factors.c.  The set-up of this matrix; GMRES with it, at most `limit` iterations; before either: what a solver of
+ * the kind needs, held values or projections. */
+int linear_set_up(linear *l, error *err);
+int linear_iterate(linear *l, const double *b, double *x, double tol, int limit, double *reached, error *err);
+void linear_prepare(linear *l, double *b, int approximate);
+int linear_precondition(void *linear_, const double *b, double *x, error *err);
+int linear_by_factors(linear *l, double *b, double *x, double tol, error *err);
+/* iterative.c */
+int linear_by_iteration(linear *l, double *b, double *x, double tol, error *err);
 /* A solution by the factors of before bodies have moved; *done = 0: it was none. */
 int moved_solve(linear *l, const double *b, double *x, double tol, int *done, error *err);
 /* row_scale, from the matrix. */
 int linear_measure(linear *l, error *err);
 const pf_solver *linear_method(const linear *l, int method);
+/* Whether the analysis is of the structure that there is; else it must be made again. */
+int linear_holds(const linear *l);
 /* The matrix as the solver in use reads it. */
 const pf_csr *linear_matrix(linear *l);
 /* Analysis by one method: the error says what went wrong, *unfit: only that this solver is not for such systems. */

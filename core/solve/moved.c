@@ -20,18 +20,27 @@ int linear_move(linear *l, const body_points *now, error *err)
     return 0;
 }
 
+/* What the band cannot do fresh factors can: only where memory runs out an error is one. */
+static int give_up(linear *l, const error *err)
+{
+    l->factored = l->band.factors = 0;
+    return err->code == ERR_MEMORY ? ERR_MEMORY : 0;
+}
+
 int moved_solve(linear *l, const double *b, double *x, double tol, int *done, error *err)
 {
     double start = clock_seconds(), reached = 0;
     int n;
 
-    TRY(band_setup(&l->band, &l->a, &l->factored, err));
+    if (band_setup(&l->band, &l->a, &l->factored, err))
+        return give_up(l, err);
     l->stats.factor_seconds += clock_seconds() - start;
     l->stats.band_factorisations += l->factored;
     if (!l->factored)
         return 0;
     start = clock_seconds();
-    TRY(gmres_solve(&l->krylov, b, x, tol, l->max_iterations, &reached, &n, err));
+    if (gmres_solve(&l->krylov, b, x, tol, l->max_iterations, &reached, &n, err))
+        return give_up(l, err);
     l->stats.gmres_iterations += n;
     l->stats.solve_seconds += clock_seconds() - start;
     band_count(&l->band, n);

@@ -81,7 +81,8 @@ enum pf_solver_flag {
                                      * its free constants.  Without this flag one value of each is held. */
 };
 
-/* All functions return an enum pf_solver_status and explain themselves in err. */
+/* Functions with err return an enum pf_solver_status and explain themselves there.  The matrix is valid during
+ * analyze, setup and update only: solve and multiply must not read it. */
 typedef struct pf_solver {
     uint32_t size, major, sizes;
     const char *name, *version, *doc;

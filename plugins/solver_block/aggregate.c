@@ -84,7 +84,7 @@ static double scale_filtered(const sparse *a, const double *diagonal, double str
 /* (I - omega D^-1 A) of the aggregates' constants. */
 static void smooth(const sparse *a, const int32_t *of, const double *value, double omega, sparse *prolong, pool *p)
 {
-    int32_t *where;
+    int64_t *where;
     pool scratch = {0};
 
     TAKE(&scratch, where, prolong->n_col + 1);
@@ -104,7 +104,7 @@ static void smooth(const sparse *a, const int32_t *of, const double *value, doub
                 if (j < 0 || of[i] < 0 || value[k] == 0)
                     continue;
                 if (where[j] < first) {
-                    where[j] = (int32_t)n;
+                    where[j] = n;
                     if (pass) {
                         prolong->col[n] = j;
                         prolong->value[n] = 0;

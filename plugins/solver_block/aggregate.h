@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * aggregate.h -- prolongation by smoothed aggregation (Vanek, Mandel and Brezina 1996), and Galerkin's product. */
+ * aggregate.h -- prolongation by smoothed aggregation (Vanek, Mandel and Brezina 1996), and products of sparse
+ * matrices. */
 #ifndef SOLVER_BLOCK_AGGREGATE_H
 #define SOLVER_BLOCK_AGGREGATE_H
 

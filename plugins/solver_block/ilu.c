@@ -137,7 +137,7 @@ void ilu_factor(ilu *f, int n_thread)
     factor_rows(f, a->part[a->n_part], a->n, a->n_part);
 }
 
-/* x_i -= sum of the entries low .. high - 1 of its row. */
+/* Sum of the entries low .. high - 1 of a row times x. */
 static inline f4 reduce(const ilu *f, int64_t low, int64_t high, const float *x, int b)
 {
     const int32_t *col = f->a->col;

@@ -2,19 +2,19 @@
 #include "levels.h"
 #include "galerkin.h"
 
-#include <umfpack.h>
-
 #include <math.h>
 #include <string.h>
 
 enum { COARSEST = 500 }; /* blocks */
 #define STRENGTH 0.02
 
-/* The block of a field (and of a component) at a node, or -1. */
-static int32_t block_at(const split *s, int64_t group, int field, int slot)
+/* The block of a field at a node that holds components part * b and on, or -1. */
+static int32_t block_at(const split *s, int64_t group, int field, int part)
 {
+    const pf_unknowns *u = s->a->unknowns;
+
     for (int64_t r = s->a->node[group]; r < s->a->node[group + 1]; r++)
-        if (s->a->unknowns->field_of[r] == field && s->block[r] >= 0 && s->slot[r] == slot)
+        if (u->field_of[r] == field && s->block[r] >= 0 && u->comp_of[r] / s->b == part)
             return s->block[r];
     return -1;
 }
@@ -54,7 +54,7 @@ static void from_vertices(levels *l)
             q->value[n++] = 1;
         }
         for (int64_t k = u->parent[g]; coarse[i] < 0 && k < u->parent[g + 1]; k++) {
-            int32_t from = block_at(s, u->parent_node[k], u->field_of[row], s->slot[row]);
+            int32_t from = block_at(s, u->parent_node[k], u->field_of[row], u->comp_of[row] / s->b);
 
             if (from < 0 || coarse[from] < 0)
                 continue;
@@ -168,22 +168,19 @@ static int factor_coarse(levels *l)
 {
     const block_matrix *a = &l->level[l->n_level - 1].a;
     int b = a->b;
-    int32_t n = a->n * b;
-    double control[UMFPACK_CONTROL];
-    void *symbolic = NULL;
-    sparse t = {.n = n, .n_col = n}, u;
-    int64_t at = 0;
-    int status;
+    int64_t n = (int64_t)a->n * b, at = 0;
+    sparse t = {.n = (int32_t)n, .n_col = (int32_t)n};
 
+    if (n > INT32_MAX)
+        return PF_SOLVER_MEMORY;
     TAKE(&l->memory, t.row, n + 1);
     TAKE(&l->memory, t.col, a->row[a->n] * b * b + 1);
     TAKE(&l->memory, t.value, a->row[a->n] * b * b + 1);
-    TAKE(&l->memory, l->coarse_row, n + 1);
     TAKE(&l->memory, l->coarse_x, n + 1);
     TAKE(&l->memory, l->coarse_b, n + 1);
     if (l->memory.failed)
         return PF_SOLVER_MEMORY;
-    for (int32_t i = 0; i < n; i++) {
+    for (int64_t i = 0; i < n; i++) {
         for (int64_t k = a->row[i / b]; k < a->row[i / b + 1]; k++)
             for (int c = 0; c < b; c++) {
                 t.col[at] = a->col[k] * b + c;
@@ -191,22 +188,7 @@ static int factor_coarse(levels *l)
             }
         t.row[i + 1] = at;
     }
-    sparse_transpose(&t, &u, &l->memory); /* by columns, and they ascend */
-    if (l->memory.failed)
-        return PF_SOLVER_MEMORY;
-    for (int32_t i = 0; i <= n; i++)
-        l->coarse_row[i] = (int32_t)u.row[i];
-    l->coarse_col = u.col;
-    l->coarse_value = u.value;
-    umfpack_di_defaults(control);
-    status = umfpack_di_symbolic(n, n, l->coarse_row, l->coarse_col, l->coarse_value, &symbolic, control, NULL);
-    if (status == UMFPACK_OK)
-        status =
-            umfpack_di_numeric(l->coarse_row, l->coarse_col, l->coarse_value, symbolic, &l->coarse, control, NULL);
-    umfpack_di_free_symbolic(&symbolic);
-    if (status != UMFPACK_OK)
-        umfpack_di_free_numeric(&l->coarse);
-    return status == UMFPACK_OK ? 0 : status == UMFPACK_ERROR_out_of_memory ? PF_SOLVER_MEMORY : PF_SOLVER_ERROR;
+    return coarse_factor(&l->coarse, &t, &l->memory);
 }
 
 /* The level that `prolong` comes from, of the matrix a. */
@@ -270,7 +252,7 @@ int levels_create(levels *l, const split *s)
 
 void levels_destroy(levels *l)
 {
-    umfpack_di_free_numeric(&l->coarse);
+    coarse_destroy(&l->coarse);
     pool_free(&l->memory);
     memset(l, 0, sizeof *l);
 }
@@ -278,7 +260,7 @@ void levels_destroy(levels *l)
 /* y = q x, with the same share for all places of a block, of those that are active. */
 static void apply_shares(const sparse *q, int b, int n_thread, const uint8_t *active, const float *x, float *y)
 {
-#pragma omp parallel for num_threads(n_thread) schedule(static)
+#pragma omp parallel for num_threads(n_thread) if (q->row[q->n] > THREADED) schedule(static)
     for (int32_t i = 0; i < q->n; i++)
         for (int c = 0; c < b; c++) {
             double v = 0;
@@ -308,8 +290,7 @@ static void solve_coarse(levels *l, const velocity_level *n)
 
     for (int64_t i = 0; i < size; i++)
         l->coarse_b[i] = n->b[i];
-    umfpack_di_solve(UMFPACK_A, l->coarse_row, l->coarse_col, l->coarse_value, l->coarse_x, l->coarse_b, l->coarse,
-                     NULL, NULL);
+    coarse_solve(&l->coarse, l->coarse_b, l->coarse_x);
     for (int64_t i = 0; i < size; i++)
         n->x[i] = (float)l->coarse_x[i];
 }

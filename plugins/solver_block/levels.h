@@ -6,6 +6,7 @@
 #define SOLVER_BLOCK_LEVELS_H
 
 #include "aggregate.h"
+#include "coarse.h"
 #include "ilu.h"
 #include "split.h"
 
@@ -25,9 +26,8 @@ typedef struct levels {
     float *r;                  /* [n blocks][b] */
     int n_level;
     velocity_level level[LEVELS_MOST];
-    void *coarse; /* factors of the last level */
-    int32_t *coarse_row, *coarse_col;
-    double *coarse_value, *coarse_x, *coarse_b;
+    coarse coarse; /* the last level, and its vectors */
+    double *coarse_x, *coarse_b;
     pool memory;
 } levels;
 

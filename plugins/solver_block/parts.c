@@ -93,7 +93,7 @@ void block_multiply(const block_matrix *a, int n_thread, const float *x, float *
 {
     enum { CHUNK = 256 };
 
-#pragma omp parallel for num_threads(n_thread) schedule(static)
+#pragma omp parallel for num_threads(n_thread) if (a->row[a->n] > THREADED / 9) schedule(static)
     for (int32_t c = 0; c < (a->n + CHUNK - 1) / CHUNK; c++) {
         int32_t low = c * CHUNK, high = low + CHUNK < a->n ? low + CHUNK : a->n;
 
@@ -103,7 +103,7 @@ void block_multiply(const block_matrix *a, int n_thread, const float *x, float *
 
 void sparse_multiply(const sparse *a, int n_thread, const double *x, double *y)
 {
-#pragma omp parallel for num_threads(n_thread) schedule(static)
+#pragma omp parallel for num_threads(n_thread) if (a->row[a->n] > THREADED) schedule(static)
     for (int32_t i = 0; i < a->n; i++) {
         double s = 0;
 

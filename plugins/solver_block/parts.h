@@ -34,6 +34,9 @@ typedef struct block_matrix {
     int32_t *part; /* [n_part + 1] */
 } block_matrix;
 
+/* Entries of a matrix from which threads are worth their start. */
+#define THREADED (1 << 17)
+
 /* y = A x, of blocks. */
 void block_multiply(const block_matrix *a, int n_thread, const float *x, float *y);
 

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "pressure.h"
 
-#include <umfpack.h>
-
 #include <math.h>
 #include <string.h>
 
@@ -39,7 +37,7 @@ static int64_t row_of_t(const split *s, int32_t i, int64_t first, int64_t *where
         int32_t block = s->d_col[k];
         double dd[3];
 
-        if (s->is_body[block])
+        if (s->is_global[block])
             continue;
         for (int c = 0; col && c < b; c++)
             dd[c] = (double)s->d[k * b + c] * s->inverse_diagonal[(int64_t)block * b + c];
@@ -101,32 +99,6 @@ static void make_t(pressure *q, const split *s)
             t->value[k] *= s->active_p[i] ? q->sign * (1 + (t->col[k] == i) * SHIFT) : 1;
 }
 
-/* Factors of the last level. */
-static int factor_coarse(pressure *q)
-{
-    sparse *a = &q->level[q->n_level - 1].a;
-    sparse t;
-    double control[UMFPACK_CONTROL];
-    void *symbolic = NULL;
-    int status;
-
-    sparse_transpose(a, &t, &q->memory);
-    TAKE(&q->memory, q->coarse_row, a->n + 1);
-    if (q->memory.failed)
-        return PF_SOLVER_MEMORY;
-    for (int32_t i = 0; i <= a->n; i++)
-        q->coarse_row[i] = (int32_t)t.row[i];
-    q->level[q->n_level - 1].restrict_ = t; /* its columns ascend */
-    umfpack_di_defaults(control);
-    status = umfpack_di_symbolic(a->n, a->n, q->coarse_row, t.col, t.value, &symbolic, control, NULL);
-    if (status == UMFPACK_OK)
-        status = umfpack_di_numeric(q->coarse_row, t.col, t.value, symbolic, &q->coarse, control, NULL);
-    umfpack_di_free_symbolic(&symbolic);
-    if (status != UMFPACK_OK)
-        umfpack_di_free_numeric(&q->coarse);
-    return status == UMFPACK_ERROR_out_of_memory ? PF_SOLVER_MEMORY : status < 0 ? PF_SOLVER_ERROR : PF_SOLVER_OK;
-}
-
 static int make_levels(pressure *q, const split *s)
 {
     pool *p = &q->memory;
@@ -163,7 +135,7 @@ static int make_levels(pressure *q, const split *s)
         if (p->failed)
             return PF_SOLVER_MEMORY;
     }
-    return factor_coarse(q);
+    return coarse_factor(&q->coarse, &q->level[q->n_level - 1].a, p);
 }
 
 int pressure_create(pressure *q, const split *s)
@@ -184,14 +156,14 @@ int pressure_create(pressure *q, const split *s)
     if (p->failed)
         return PF_SOLVER_MEMORY;
     for (int32_t i = 0; i < s->f.n; i++)
-        if (s->is_body[i])
+        if (s->is_global[i])
             q->body[q->n_body++] = i;
     return make_levels(q, s);
 }
 
 void pressure_destroy(pressure *q)
 {
-    umfpack_di_free_numeric(&q->coarse);
+    coarse_destroy(&q->coarse);
     pool_free(&q->memory);
     memset(q, 0, sizeof *q);
 }
@@ -219,8 +191,10 @@ static void cycle(pressure *q, int k)
     double *next;
 
     if (k == q->n_level - 1) {
-        umfpack_di_solve(UMFPACK_A, q->coarse_row, l->restrict_.col, l->restrict_.value, l->x, l->b, q->coarse,
-                         NULL, NULL);
+        if (!coarse_solve(&q->coarse, l->b, l->x)) {
+            relax(l, 0);
+            relax(l, 1);
+        }
         return;
     }
     memset(l->x, 0, (size_t)l->a.n * sizeof *l->x);

@@ -8,6 +8,7 @@
 #define SOLVER_BLOCK_PRESSURE_H
 
 #include "aggregate.h"
+#include "coarse.h"
 #include "split.h"
 
 enum { PRESSURE_LEVELS = 12 };
@@ -23,8 +24,7 @@ typedef struct pressure {
     sparse t;    /* of the fluid alone; the bodies' part is of low rank and applied as it stands */
     int n_level;
     pressure_level level[PRESSURE_LEVELS];
-    void *coarse; /* factors of the last level */
-    int32_t *coarse_row, *coarse_col;
+    coarse coarse;  /* the last level */
     int32_t n_body; /* blocks of bodies */
     int32_t *body;
     double *r, *z, *d, *w, *y; /* [n_p] of the iteration */

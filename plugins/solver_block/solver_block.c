@@ -83,11 +83,14 @@ static int analyze(void *self, const pf_csr *a, pf_solver_cost *cost, char *err,
     if (s->memory.failed)
         return fail(err, nerr, PF_SOLVER_MEMORY, "out of memory");
     entries = (double)s->split.f.row[s->split.f.n] * s->split.b * s->split.b;
-    for (int32_t i = 0; i < s->split.f.n; i++) {
-        double m = (double)(s->split.f.row[i + 1] - s->split.f.row[i]);
+    for (int32_t i = 0; i < s->split.f.n;
+         i++) /* of blocks: with half of each row above, half of which may be kept */
+        for (int64_t k = s->split.f.row[i]; k < s->split.f.diagonal[i]; k++) {
+            int32_t j = s->split.f.col[k];
 
-        products += m * m / 8; /* of blocks, one in two of those that the pattern might keep */
-    }
+            products += 0.25 * fmin((double)(s->split.f.row[j + 1] - s->split.f.row[j]),
+                                    (double)(s->split.f.row[i + 1] - s->split.f.row[i]));
+        }
     cost->fill = 1.5 * entries;
     cost->flops = 2 * products * s->split.b * s->split.b * s->split.b + 20 * entries;
     cost->bytes = 12 * entries;
@@ -103,10 +106,10 @@ static int is_viscous(const block_solver *s)
     for (int32_t i = 0; i < f->n; i += 13) { /* no divisor of what a line of a box has */
         double sum = 0;
 
-        if (s->split.is_body[i] || !s->split.active[(int64_t)i * b])
+        if (s->split.is_global[i] || !s->split.active[(int64_t)i * b])
             continue;
         for (int64_t k = f->row[i]; k < f->row[i + 1]; k++)
-            sum += s->split.is_body[f->col[k]] ? 0 : f->value[k * b * b];
+            sum += s->split.is_global[f->col[k]] ? 0 : f->value[k * b * b];
         n++;
         viscous += fabs(sum * s->split.inverse_diagonal[(int64_t)i * b]) < VISCOUS;
     }
@@ -148,10 +151,10 @@ static void multiply(void *self, const double *x, double *y)
     int64_t n = (int64_t)q->f.n * q->b;
     double largest = 0;
 
-    for (int64_t i = 0; i < q->a->n; i++)
+    for (int64_t i = 0; i < q->n; i++)
         largest = fmax(largest, fabs(x[i]));
     if (!(largest > 0) || !isfinite(largest)) {
-        memcpy(y, x, (size_t)q->a->n * sizeof *x);
+        memcpy(y, x, (size_t)q->n * sizeof *x);
         return;
     }
     for (int32_t i = 0; i < q->n_p; i++)
@@ -195,10 +198,10 @@ static int solve(void *self, const double *b, double *x, char *err, size_t nerr)
     double largest = 0;
 
     (void)err, (void)nerr;
-    for (int64_t i = 0; i < q->a->n; i++)
+    for (int64_t i = 0; i < q->n; i++)
         largest = fmax(largest, fabs(b[i]));
     if (!(largest > 0) || !isfinite(largest)) {
-        memcpy(x, b, (size_t)q->a->n * sizeof *x);
+        memcpy(x, b, (size_t)q->n * sizeof *x);
         return PF_SOLVER_OK;
     }
     for (int32_t i = 0; i < q->n_p; i++)

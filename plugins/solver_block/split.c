@@ -48,7 +48,7 @@ static void number_blocks(split *s, int32_t *first_block, int32_t *group_of, poo
                 continue;
             }
             if (r == a->node[g] || u->field_of[r] != u->field_of[r - 1] ||
-                u->comp_of[r] % s->b < u->comp_of[r - 1] % s->b)
+                u->comp_of[r] % s->b <= u->comp_of[r - 1] % s->b)
                 n++;
             s->block[r] = n - 1;
             s->slot[r] = (uint8_t)(u->comp_of[r] % s->b);
@@ -103,7 +103,7 @@ static void order_blocks(split *s, const int32_t *first_block, const int32_t *gr
     }
 }
 
-/* Columns of the blocks of group g, in the new order: those before `split`, or from it. */
+/* Columns of the blocks of group g, in the new order: those before `limit`, or from it on. */
 static int64_t add_columns(const split *s, const int32_t *first_block, const int32_t *group_of,
                            const int32_t *order, int64_t g, int32_t limit, int late, int32_t *to)
 {
@@ -188,6 +188,7 @@ void split_analyze(split *s, const pf_csr *a, int pressure, int n_thread, pool *
 
     memset(s, 0, sizeof *s);
     s->a = a;
+    s->n = a->n;
     s->b = a->unknowns->dim;
     s->pressure = pressure;
     s->n_thread = n_thread;
@@ -201,7 +202,7 @@ void split_analyze(split *s, const pf_csr *a, int pressure, int n_thread, pool *
     TAKE(&scratch, natural, s->f.n + 1);
     TAKE(p, s->row_of, (int64_t)s->f.n * s->b + 1);
     TAKE(p, s->group, s->f.n + 1);
-    TAKE(p, s->is_body, s->f.n + 1);
+    TAKE(p, s->is_global, s->f.n + 1);
     TAKE(p, s->active, (int64_t)s->f.n * s->b + 1);
     TAKE(p, s->active_p, s->n_p + 1);
     TAKE(p, s->f.part, n_thread + 1);
@@ -217,7 +218,7 @@ void split_analyze(split *s, const pf_csr *a, int pressure, int n_thread, pool *
                 s->block[r] = order[s->block[r]];
                 natural[s->block[r]] = group_of[r];
                 s->group[s->block[r]] = group_of[r];
-                s->is_body[s->block[r]] = a->unknowns->kind[group_of[r]] == PF_ROWS_OF_BODY;
+                s->is_global[s->block[r]] = a->unknowns->kind[group_of[r]] != PF_ROWS_OF_NODE;
                 s->row_of[(int64_t)s->block[r] * s->b + s->slot[r]] = (int32_t)r;
             }
     }
@@ -341,7 +342,7 @@ void split_gradient(const split *s, const double *p, double scale, float *v)
 {
     int b = s->b;
 
-#pragma omp parallel for num_threads(s->n_thread) schedule(static)
+#pragma omp parallel for num_threads(s->n_thread) if (s->g_row[s->f.n] > THREADED / 3) schedule(static)
     for (int32_t i = 0; i < s->f.n; i++) {
         float sum[3] = {0};
 
@@ -357,7 +358,7 @@ void split_divergence(const split *s, const float *v, double *q)
 {
     int b = s->b;
 
-#pragma omp parallel for num_threads(s->n_thread) schedule(static)
+#pragma omp parallel for num_threads(s->n_thread) if (s->g_row[s->f.n] > THREADED / 3) schedule(static)
     for (int32_t i = 0; i < s->n_p; i++) {
         double sum = 0;
 

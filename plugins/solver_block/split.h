@@ -11,18 +11,19 @@
 #include "parts.h"
 
 typedef struct split {
-    const pf_csr *a;
-    int b;             /* size of the blocks: dim            */
-    int pressure;      /* its field                          */
-    int32_t n_p;       /* pressures                          */
-    int32_t *block;    /* [n] of each row: its block, or -1 - its pressure                     */
-    uint8_t *slot;     /* [n] place in the block                                               */
-    int32_t *row_of;   /* [f.n][b] row of the matrix at each place, or -1                      */
-    int32_t *row_of_p; /* [n_p]                                                               */
-    int32_t *group;    /* [f.n] node (pf_csr) that a block belongs to                          */
-    uint8_t *is_body;  /* [f.n] the block is of a body                                         */
-    uint8_t *active;   /* [f.n][b] there is an unknown, and it is not idle                     */
-    uint8_t *active_p; /* [n_p]                                                               */
+    const pf_csr *a;    /* valid during analysis, set-up and update only */
+    int64_t n;          /* its rows                         */
+    int b;              /* size of the blocks: dim            */
+    int pressure;       /* its field                          */
+    int32_t n_p;        /* pressures                          */
+    int32_t *block;     /* [n] of each row: its block, or -1 - its pressure                     */
+    uint8_t *slot;      /* [n] place in the block                                               */
+    int32_t *row_of;    /* [f.n][b] row of the matrix at each place, or -1                      */
+    int32_t *row_of_p;  /* [n_p]                                                               */
+    int32_t *group;     /* [f.n] node (pf_csr) that a block belongs to                          */
+    uint8_t *is_global; /* [f.n] of a body or of the problem: coupled with many nodes */
+    uint8_t *active;    /* [f.n][b] there is an unknown, and it is not idle                     */
+    uint8_t *active_p;  /* [n_p]                                                               */
     block_matrix f;
     float *inverse_diagonal; /* [f.n][b] of F; 1 where nothing is active                      */
     /* G by rows of blocks, D by pressures; b numbers an entry. */

@@ -297,6 +297,7 @@ static int solve(void *self, const double *b, double *x, char *err, size_t nerr)
 {
     umfpack *u = self;
     const int before = blas_threads(1);
+    /* the matrix may be gone: without refinement (IRSTEP = 0) it is asked for, but not read */
     SuiteSparse_long status =
         umfpack_dl_solve(UMFPACK_At, u->a.row, u->a.col, u->a.value, x, b, u->numeric, u->control, NULL);
 
