@@ -160,7 +160,8 @@ int envelope_attach(bodies *b, const pose *at, error *err)
 
     e->margin = e->restricted ? NARROW : MARGIN;
     n = list_pairs(b, at, NULL, NULL);
-    if (n > FEW * (double)b->space->mesh->n_cell) {
+    b->space->crowded = n > FEW * (double)b->space->mesh->n_cell;
+    if (b->space->crowded) {
         e->margin = NARROW;
         n = list_pairs(b, at, NULL, NULL);
     }

@@ -53,7 +53,7 @@ static void print_solver(const linear *l)
 
 static int check(const problem *p, const linear *l, int json)
 {
-    double matrix = 16.0 * (double)p->space.row[p->space.n_free];
+    double matrix = 8.0 * (double)p->space.row[p->space.n_free] + 4.0 * (double)p->space.n_col;
 
     if (json) {
         printf("{\"cells\": %lld, \"unknowns\": %lld, \"free_unknowns\": %lld, \"matrix_entries\": %lld, "

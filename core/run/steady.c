@@ -49,9 +49,11 @@ static int find(problem *p, int started, newton_report *report, int *steps, cont
 
     p->continuation.bodies = direct.bodies;
     if (started) {
-        TRY(continuation_solve(&p->system, &direct, &p->newton, p->state.x, report, steps, NULL, NULL, err));
-        if (report->converged || (p->system.stop && *p->system.stop))
-            return 0;
+        int status =
+            continuation_solve(&p->system, &direct, &p->newton, p->state.x, report, steps, NULL, NULL, err);
+
+        if (status == ERR_MEMORY || (!status && (report->converged || (p->system.stop && *p->system.stop))))
+            return status;
         TRY(problem_initial(p, err));
     }
     return continuation_solve(&p->system, &p->continuation, &p->newton, p->state.x, report, steps, talk, ctx, err);

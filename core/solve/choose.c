@@ -17,7 +17,6 @@
  * suspensions none do. */
 #define MANY_FLOPS_FEW_2D   1e10
 #define MANY_FLOPS_CROWD_2D 4e8
-#define FEW_ATTACHED        0.2 /* pairs of a cell and a body near it, of all cells */
 
 static double available_memory(void)
 {
@@ -136,11 +135,9 @@ static double guess_flops(const linear *l)
 
 static double many_each_step(const space *s)
 {
-    int few = (double)s->n_attached < FEW_ATTACHED * (double)s->mesh->n_cell;
-
     if (s->mesh->dim == 3)
         return MANY_FLOPS_EACH_STEP;
-    return few ? MANY_FLOPS_FEW_2D : MANY_FLOPS_CROWD_2D;
+    return s->crowded ? MANY_FLOPS_CROWD_2D : MANY_FLOPS_FEW_2D;
 }
 
 int linear_predict(linear *l, error *err)

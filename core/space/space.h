@@ -50,6 +50,7 @@ typedef struct space {
 
     int n_particle, any_problem;
     int64_t n_attached; /* pairs of a cell and a body near it */
+    int crowded;        /* bodies are near a large part of all cells: who attaches says so */
     int32_t *attached_cell, *attached_particle;
     int64_t n_link, link_room; /* pairs of bodies; -1: none                          */
     int32_t (*link)[2];
