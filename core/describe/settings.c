@@ -170,6 +170,10 @@ static void read_continuation(description *d, reader *r)
  * small against the error of the step, of which the prediction's is a few. */
 #define STEP_FALL 1e-3
 
+/* What is left of a linear system in a time step, at most: what is left in one step is in the history of the next.
+ * Where disks crowd, more than this grows. */
+#define STEP_LINEAR 1e-5
+
 static void read_solve(description *d)
 {
     solve_spec *o = &d->solve;
@@ -177,7 +181,7 @@ static void read_solve(description *d)
 
     *o = (solve_spec){.tolerance = 1e-11,
                       .max_iterations = 25,
-                      .linear_tolerance = 0.1,
+                      .linear_tolerance = d->time.unsteady ? STEP_LINEAR : 0.1,
                       .coarse_start = -1,
                       .fall = d->time.unsteady ? STEP_FALL : 0};
     reader_open(&r, d->c, case_find(d->c, "solve", 0), "solve");
