@@ -76,16 +76,11 @@ typedef struct placement {
     arena memory;
 } placement;
 
-/* Cells that have the points of cut ones, though no body covers any of them: how near a body is, in sizes of a
- * cell. Farther than a surface goes in a step: with 0.27 what changes the points shows as an error of the step, and
- * steps that choose their length become a third as long.  No round number, as bodies often lie along the lines of
- * the mesh. */
-#define BODY_RING 1.07
-
 /* Cells attached to bodies while each stays within a margin of where it was. */
 typedef struct envelope {
     int stamp;           /* another one for each                                     */
     double (*centre)[3]; /* [n_body] when the cells were attached                     */
+    double ring;         /* in sizes of a cell: near enough to a body for the points of cut cells */
     double (*shift)[3];  /* [space.n_attached] from the body to its image there       */
     int32_t *first_tie;  /* [n_cell] first tie of a bad cell in space.tie, or -1      */
     int32_t *next_tie;   /* [space.n_tie] next tie of the same cell                   */

@@ -51,7 +51,7 @@ int share_weights(const bodies *b, placement *p, error *err)
             p->cut_weight[p->cut_of[e] * n + q] -= p->covered_weight[k * n + q];
     }
     for (int64_t a = 0; a < s->n_attached; a++)
-        if (p->covered_by[s->attached_cell[a]] < 0 && envelope_near(b, p, a, BODY_RING))
+        if (p->covered_by[s->attached_cell[a]] < 0 && envelope_near(b, p, a, b->envelope.ring))
             enter(b, p, s->attached_cell[a], a);
     return 0;
 }
