@@ -19,8 +19,7 @@
 #define FEW    0.2
 /* Attached cells that have the points of cut ones, though no body covers any of them: those so near, or all within
  * the narrow margin.  With a ring of 0.27 what changes the points shows as an error of the step, and steps that
- * choose their length become a third as long; with margins of 1.57 and more the flow between fifty disks that
- * settle gets unstable after some 300 steps, which has not been understood. */
+ * choose their length become a third as long. */
 #define RING 1.07
 /* What of the margin a body needs for the cells that it is near to. */
 #define NEEDED        (RING + 0.05)
