@@ -13,10 +13,10 @@
  * solutions, some tenths where every step has its own. */
 #define MANY_FLOPS           6e10
 #define MANY_FLOPS_EACH_STEP 1.5e9
-/* The same in 2D, where the factors of one step serve many (band.h). */
-#define MANY_FLOPS_BAND 1e10
-/* Where bodies are near a large part of all cells. */
-#define MANY_FLOPS_CROWD 2e11
+/* The same in 2D, measured: where bodies are near to few cells, the factors of one step serve many (band.h); in
+ * suspensions none do. */
+#define MANY_FLOPS_FEW_2D   1e10
+#define MANY_FLOPS_CROWD_2D 4e8
 
 static double available_memory(void)
 {
@@ -133,13 +133,11 @@ static double guess_flops(const linear *l)
     return l->space->mesh->dim == 2 ? 180 * pow(n, 1.5) : 45 * n * n;
 }
 
-/* Crowds of bodies are factored as long as that is no matter of minutes: what an iteration leaves of a system grows
- * there over some hundred steps, until the flow is another one (fifty disks, docs/performance.md). */
 static double many_each_step(const space *s)
 {
-    if (s->crowded)
-        return MANY_FLOPS_CROWD;
-    return s->mesh->dim == 2 ? MANY_FLOPS_BAND : MANY_FLOPS_EACH_STEP;
+    if (s->mesh->dim == 3)
+        return MANY_FLOPS_EACH_STEP;
+    return s->crowded ? MANY_FLOPS_CROWD_2D : MANY_FLOPS_FEW_2D;
 }
 
 int linear_predict(linear *l, error *err)

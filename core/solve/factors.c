@@ -49,7 +49,7 @@ static void level(void *linear_, double *x)
 {
     const linear *l = linear_;
 
-    unknowns_level(&l->rows, l->space, x);
+    unknowns_level(&l->rows, l->space, l->pin, x);
 }
 
 int linear_set_up(linear *l, error *err)

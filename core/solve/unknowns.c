@@ -145,20 +145,12 @@ void unknowns_project(const unknowns *u, const space *s, double *rows)
     }
 }
 
-void unknowns_level(const unknowns *u, const space *s, double *x)
+void unknowns_level(const unknowns *u, const space *s, const int64_t *pin, double *x)
 {
     for (int f = 0; f < s->n_field; f++) {
-        double sum = 0;
-        int64_t n = 0;
+        double held = u->view.free_fields >> f & 1 ? x[pin[f]] : 0;
 
-        if (!(u->view.free_fields >> f & 1))
-            continue;
-        for (int64_t i = 0; i < s->n_free; i++)
-            if (u->view.field_of[i] == f && !u->idle[i]) {
-                sum += x[i];
-                n++;
-            }
-        for (int64_t i = 0; i < s->n_free; i++)
-            x[i] -= u->view.field_of[i] == f && !u->idle[i] ? sum / (double)n : 0;
+        for (int64_t i = 0; held != 0 && i < s->n_free; i++)
+            x[i] -= u->view.field_of[i] == f && !u->idle[i] ? held : 0;
     }
 }

@@ -23,8 +23,10 @@ int unknowns_create(unknowns *u, arena *memory, const space *s, error *err);
  * function [n_dof] where they have. */
 int unknowns_update(unknowns *u, arena *memory, const space *s, const uint8_t *idle, const int *free_fields,
                     const double *const *integral, error *err);
-/* Takes out of a right-hand side [n] what equations of free fields cannot meet; takes their mean off a solution. */
+/* Takes out of a right-hand side [n] what equations of free fields cannot meet; takes off a solution what makes one
+ * value of each of them, pin [n_field], zero.  That value is the one that a factorisation holds, and not the mean:
+ * near bodies a constant is free only nearly, and a mean that jumps as cells come to take part drives a flow. */
 void unknowns_project(const unknowns *u, const space *s, double *rows);
-void unknowns_level(const unknowns *u, const space *s, double *x);
+void unknowns_level(const unknowns *u, const space *s, const int64_t *pin, double *x);
 
 #endif
