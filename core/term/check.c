@@ -352,7 +352,7 @@ int term_adopt(const pf_plugin *d, const char *path, arena *memory, term_plugin 
                          from ? from->size : 0, least);
         memcpy(t, from, from->size < sizeof *t ? from->size : sizeof *t);
         s.term = t->name;
-        if ((t->n_in || t->n_out) && t->slot_size < sizeof(pf_slot))
+        if ((t->n_in || t->n_out) && t->slot_size < offsetof(pf_slot, unit))
             return wrong(err, &s, "slot_size = %u; set .slot_size = sizeof(pf_slot)", t->slot_size);
         if (t->n_param && t->param_size < sizeof(pf_param))
             return wrong(err, &s, "param_size = %u; set .param_size = sizeof(pf_param)", t->param_size);

@@ -14,6 +14,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#if defined __GNUC__ /* structs grow at the end: what an initialiser leaves out is zero, and that is meant */
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 typedef struct {
@@ -24,7 +28,7 @@ typedef double _Complex pf_complex;
 #endif
 
 #define PF_ABI_MAJOR 1u /* differs: refused                                            */
-#define PF_ABI_MINOR 3u /* plugin newer than kernel: loads if its min_minor allows     */
+#define PF_ABI_MINOR 4u /* plugin newer than kernel: loads if its min_minor allows     */
 #define PF_LANES     8u /* ld is a multiple of it; arrays are 64-byte aligned          */
 #define PF_SIZES     ((uint32_t)(sizeof(double) << 16 | sizeof(void *) << 8 | sizeof(size_t)))
 
@@ -43,12 +47,14 @@ enum pf_where {
     PF_FACET = 4,    /* boundary facets; normal points out of Omega               */
     PF_SURFACE = 5,  /* surface of a particle; normal points out of the fluid     */
     PF_CUT = 6,      /* cells with too little fluid, see PF_DEFECT                */
-    PF_PARTICLE = 7, /* once per particle, weight 1                               */
-    PF_PAIR = 8      /* near pairs, particle-particle and particle-wall, weight 1; see PF_DEFECT */
+    PF_PARTICLE = 7, /* once per particle, at its centre, weight 1 (1.4)          */
+    PF_PAIR = 8      /* near pairs, particle-particle and particle-wall, weight 1; see PF_DEFECT, PF_OTHER */
 };
 
-/* What of a field a slot holds.  For an output slot: what of the test function it multiplies
- * (PF_VALUE, PF_GRAD or PF_DIV; on PF_CUT and PF_PAIR PF_DEFECT). */
+/* What a slot holds.  For an output slot: what of the test function it multiplies (PF_VALUE, PF_GRAD or PF_DIV; on
+ * PF_CUT PF_DEFECT; on PF_PAIR PF_DEFECT, PF_VALUE or PF_OTHER), or what becomes of it (PF_PROPERTY, PF_STATE,
+ * PF_SHOW, PF_INTEGRAL).  A term either gives equations, or publishes properties, or gives what is shown; states
+ * besides. */
 enum pf_eval {
     PF_VALUE = 1,
     PF_GRAD = 2,
@@ -57,12 +63,30 @@ enum pf_eval {
     PF_OLD = 5,  /* value at t - dt                                                         */
     PF_DATA = 6, /* no unknown: a value or function of x and t from the case                */
     /* What differs: on PF_CUT the value minus the polynomial of the root cell, continued to here; on
-     * PF_PAIR that of the first body minus that of the other (a wall rests).  The only slots there. */
+     * PF_PAIR that of the first body minus that of the other (a wall rests). */
     PF_DEFECT = 7,
     /* Laplacian inside of the cell, of the shape of the value: sum_k d^2 u_a / d x_k^2, on curved cells with the
      * second derivatives of their mapping.  What the field does across facets is not in it.  Of fields on the
      * mesh; for input slots only (1.3) */
-    PF_LAPLACE = 8
+    PF_LAPLACE = 8,
+    /* A quantity at the point that another term may publish, called `field`: "viscosity".  Of an input its value
+     * and, in the Jacobian, d out / d property, which the kernel chains with the publisher's derivatives.  Where no
+     * term publishes it, it is the number of that name that the case gives, in fluid{} or on the term's own line.
+     * Of an output: the term publishes it, wherever some term asks for it (1.4) */
+    PF_PROPERTY = 9,
+    /* The key `field` of particle{}, a number (a vector) that every body has: particle { charge = 3 }.  On points
+     * of bodies; on PF_PAIR of the first body.  No unknown (1.4) */
+    PF_BODY_KEY = 10,
+    PF_OTHER_KEY = 11, /* PF_PAIR: the same of the other body; 0 of a wall (1.4)                        */
+    PF_OTHER = 12,     /* PF_PAIR: value of a body's field, or its test function, of the other body alone, as
+                        * PF_VALUE is that of the first; a wall has 0, and what it is given is dropped (1.4) */
+    /* Memory: a field of support PF_AT_POINTS (any points in cells) or PF_KEPT_BY_PARTICLE (PF_PARTICLE).  Input:
+     * its value at the end of the last step; output: its value now, which is kept when the step is accepted (1.4)
+     */
+    PF_STATE = 13,
+    PF_SHOW = 14,    /* output: a field in the files, projected; called like the slot; `field` NULL (1.4) */
+    PF_INTEGRAL = 15 /* output: a column in the tables, the integral over the points: over the cells, over each
+                      * boundary, over or of each body (in particles.csv); `field` NULL (1.4)             */
 };
 
 /* Components of a slot; a tensor is row-major, grad_u[a*dim + k] = d u_a / d x_k. */
@@ -70,23 +94,36 @@ enum pf_shape {
     PF_SCALAR = 1,
     PF_VECTOR = 2, /* dim                              */
     PF_TENSOR = 3, /* dim x dim                        */
-    PF_SPIN = 4    /* 1 in 2D, 3 in 3D (angular velocity) */
+    PF_SPIN = 4,   /* 1 in 2D, 3 in 3D (angular velocity) */
+    /* (1.4) Symmetric tensor: xx, xy, yy in 2D; xx, xy, xz, yy, yz, zz in 3D; and what gradients of a symmetric and
+     * of a full tensor are, [component of the tensor][k]. */
+    PF_SYMMETRIC = 5,
+    PF_SYMMETRIC_GRAD = 6,
+    PF_TENSOR_GRAD = 7
 };
 
 /* One argument of a point function. */
 typedef struct pf_slot {
     const char *name;  /* as messages and tests call it: "grad_u"                      */
-    const char *field; /* the unknown: "u"; for PF_DATA NULL                           */
+    const char *field; /* the unknown: "u"; a property, a key; for PF_DATA, PF_SHOW, PF_INTEGRAL NULL */
     uint32_t eval;     /* enum pf_eval                                                 */
     uint32_t shape;    /* enum pf_shape of what arrives, e.g. PF_TENSOR for grad of u  */
+    /* (1.4) Of PF_PROPERTY, PF_BODY_KEY and of outputs PF_SHOW, PF_INTEGRAL: "1/s", "shear rate". */
+    const char *unit, *doc;
+    double dflt; /* PF_BODY_KEY: of a body that does not say */
+    /* Where the term makes sense, for each component; tests keep to it, and a body's key has to; min >= max:
+     * everywhere. */
+    double min, max;
 } pf_slot;
 
 /* Where the values of a field live. */
 enum pf_support {
-    PF_ON_MESH = 0,     /* nodes of the mesh, continuous                                */
-    PF_ON_PROBLEM = 1,  /* one value (or vector) for the whole problem                  */
-    PF_ON_PARTICLE = 2, /* one value (vector, spin) per particle                       */
-    PF_IN_PARTICLES = 3 /* nodes of the mesh that particles cover (the active set)      */
+    PF_ON_MESH = 0,         /* nodes of the mesh, continuous                                */
+    PF_ON_PROBLEM = 1,      /* one value (or vector) for the whole problem                  */
+    PF_ON_PARTICLE = 2,     /* one value (vector, spin) per particle                       */
+    PF_IN_PARTICLES = 3,    /* nodes of the mesh that particles cover (the active set)     */
+    PF_AT_POINTS = 4,       /* memory of points in cells: no unknown, see PF_STATE (1.4)   */
+    PF_KEPT_BY_PARTICLE = 5 /* memory of each particle, see PF_STATE (1.4)              */
 };
 
 /* A field.  Several plugins may declare the same one; shape, order and support must agree, texts are
@@ -96,8 +133,8 @@ enum pf_support {
 typedef struct pf_field {
     const char *name;          /* "u"; the key in boundary{}, initial{}, output{}    */
     const char *unit, *doc;    /* "m/s", "velocity"                                  */
-    uint32_t shape;            /* PF_SCALAR, PF_VECTOR; on particles also PF_SPIN     */
-    uint32_t order;            /* 1 or 2: polynomial order; ignored off the mesh     */
+    uint32_t shape;            /* PF_SCALAR, PF_VECTOR; on particles also PF_SPIN; PF_TENSOR, PF_SYMMETRIC (1.4) */
+    uint32_t order;            /* polynomial order: 1 or 2, or 0, one value a cell (1.4); ignored off the mesh   */
     uint32_t support;          /* enum pf_support                                    */
     const char *reaction;      /* what its boundary reaction is: "force", "heat"; or NULL */
     const char *reaction_unit; /* "N"                                                     */
@@ -148,6 +185,19 @@ typedef struct pf_batch {
      * G = dxi/dx.  Reference cells are [-1,1]^dim and the regular simplex with edges of length 2, so that it is
      * (2/h)^2 times the identity in a square, a cube and a regular simplex with edges of length h. */
     const double *metric;
+    /* Of the body at the point, on PF_SOLID, PF_SURFACE, PF_PARTICLE, and of the first on PF_PAIR (1.4).  axes:
+     * [dim*dim][ld], row-major, column k is the body's own axis k; inertia about the centre in the axes of space,
+     * kg m^2, [1][ld] in 2D, [9][ld] in 3D.  In 2D a body has the volume of its cross-section, m^2. */
+    const double *centre, *axes, *volume, *mass, *inertia;
+    /* PF_PARTICLE: what the fluid did to it at the end of the last step, N [dim][ld], N m [1 or 3][ld] (1.4) */
+    const double *fluid_force, *fluid_torque;
+    /* PF_PAIR, of the other body (1.4); a wall has id -1 and no centre, axes and arm (zero).  The arms of a pair go
+     * from the centres to the middle of the gap. */
+    const int32_t *other_id;
+    const double *other_centre, *other_axes, *other_arm;
+    const double
+        *curvature; /* PF_SURFACE: sum of the principal curvatures, 1/m; of a ball 2/R, of a disk 1/R (1.4) */
+    const double *wall_distance; /* with PF_WALL_DISTANCE: to the nearest wall, m; [ld] (1.4) */
 } pf_batch;
 
 /* in[k], out[k]: [component][ld] of slot k.  The residual assigns every output.
@@ -177,8 +227,19 @@ enum pf_term_flag {
     PF_BY_BOUNDARY = 8,
     /* PF_SOLID: its rows of particle fields, with the sign changed, are what the fluid does to the body (1.1) */
     PF_FLUID_FORCE = 16,
-    PF_METRIC = 32 /* it reads pf_batch.metric; not on PF_CUT and PF_PAIR (1.3) */
+    PF_METRIC = 32,        /* it reads pf_batch.metric; not on PF_CUT and PF_PAIR (1.3) */
+    PF_WALL_DISTANCE = 64, /* it reads pf_batch.wall_distance (1.4)                  */
+    PF_ONLY_2D = 128,      /* a case in 3D that switches it on is refused (1.4)      */
+    PF_ONLY_3D = 256,
+    PF_LAST = 512 /* evaluated after all terms without this flag (1.4)      */
 };
+
+/* What a term may know when a run starts, see pf_term.init (1.4). */
+typedef struct pf_setup {
+    uint32_t size, dim;
+    int32_t n_body, unsteady;
+    const struct pf_host *host;
+} pf_setup;
 
 typedef struct pf_term {
     uint32_t size, flags, where;
@@ -197,6 +258,12 @@ typedef struct pf_term {
     /* PF_PAIR (1.2): gap, m, beyond which the term does nothing, for bodies of this size across, m, and cells of
      * size h, m; NULL: `size`.  The kernel looks for pairs as far as some term asks. */
     double (*reach)(const void *params, double size, double h);
+    /* "momentum.viscous" (1.4): where both are on, that one is left out.  More than one: separated by blanks. */
+    const char *replaces;
+    /* (1.4) Before the first evaluation and after the last one of a run, for every line that switches the term on,
+     * with that line's struct: to read a table, to make what parameters imply.  init returns 0, or 1 with why. */
+    int (*init)(void *params, const pf_setup *setup, char *err, size_t nerr);
+    void (*done)(void *params);
 } pf_term;
 
 typedef struct pf_plugin {
