@@ -17,7 +17,7 @@ static int is_on_cells(const term_use *u)
 static const pf_slot *slot_of(const pf_slot *slot, uint32_t n, const char *field, uint32_t eval)
 {
     for (uint32_t i = 0; i < n; i++)
-        if (slot[i].eval != PF_DATA && strcmp(slot[i].field, field) == 0 && (eval == 0 || slot[i].eval == eval))
+        if (term_slot_field(&slot[i]) && strcmp(slot[i].field, field) == 0 && (eval == 0 || slot[i].eval == eval))
             return &slot[i];
     return NULL;
 }
@@ -31,8 +31,9 @@ int describe_field_is_balanced(const description *d, int f)
 
         for (uint32_t o = 0; is_on_cells(&d->use[i]) && o < t->n_out; o++)
             for (uint32_t k = 0; k < t->n_in; k++)
-                if (t->in[k].eval != PF_DATA && strcmp(t->in[k].field, name) == 0 &&
-                    strcmp(t->out[o].field, name) == 0 && (!t->depends || t->depends[o * t->n_in + k]))
+                if (term_slot_field(&t->in[k]) && strcmp(t->in[k].field, name) == 0 &&
+                    term_slot_field(&t->out[o]) && strcmp(t->out[o].field, name) == 0 &&
+                    (!t->depends || t->depends[o * t->n_in + k]))
                     return 1;
     }
     return d->incomplete;

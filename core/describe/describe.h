@@ -110,6 +110,13 @@ typedef struct solve_spec {
     double *continued[DESCRIBE_MAX_CONTINUED], from[DESCRIBE_MAX_CONTINUED], to[DESCRIBE_MAX_CONTINUED];
 } solve_spec;
 
+/* Terms that are on, of one kind. */
+typedef struct term_list {
+    int n;
+    term_use use[DESCRIBE_MAX_TERMS];
+    const case_block *block[DESCRIBE_MAX_TERMS];
+} term_list;
+
 typedef struct description {
     case_file *c;           /* for messages, and for results{} */
     warning_list *warnings; /* what is doubtful but no error   */
@@ -117,8 +124,9 @@ typedef struct description {
     mesh_spec mesh;
     int incomplete; /* some term is unknown: what needs its fields and keys cannot be judged */
     int n_use;
-    term_use use[DESCRIBE_MAX_TERMS];                /* terms that are on */
+    term_use use[DESCRIBE_MAX_TERMS];                /* terms that are on and give equations */
     const case_block *use_block[DESCRIBE_MAX_TERMS]; /* lines that switch them on */
+    term_list law, shown;                            /* those that publish properties; that give what is shown */
     field_list fields;                               /* their unknowns    */
     int n_line, boundary_unread;                     /* some line is so wrong that its boundaries are unknown */
     boundary_line *line;

@@ -268,7 +268,7 @@ static int is_coupled(const description *d)
         any_fluid |= u->where == PF_FLUID;
         for (uint32_t k = 0; k < u->term->n_in + u->term->n_out; k++) {
             const pf_slot *s = k < u->term->n_in ? &u->term->in[k] : &u->term->out[k - u->term->n_in];
-            int f = s->eval == PF_DATA ? -1 : fields_find(&d->fields, s->field);
+            int f = term_slot_field(s) ? fields_find(&d->fields, s->field) : -1;
 
             if (f >= 0 && (u->where == PF_SOLID || u->where == PF_SURFACE) &&
                 d->fields.f[f].support == PF_ON_MESH && (!any_vector || d->fields.f[f].shape == PF_VECTOR))

@@ -17,18 +17,29 @@ static int is_listed(const char *name, const char *const *list, int n)
     return 0;
 }
 
-static int add_use(description *d, const case_block *b, const term_plugin *plugin, const pf_term *t, error *err)
-{
-    term_use *u = &d->use[d->n_use];
+/* The terms that a line switches on. */
+typedef struct line_terms {
+    int n;
+    term_use *use[DESCRIBE_MAX_TERMS];
+} line_terms;
 
-    if (d->n_use == DESCRIBE_MAX_TERMS)
+static int add_use(description *d, const case_block *b, const term_plugin *plugin, const pf_term *t,
+                   line_terms *mine, error *err)
+{
+    term_list *list = term_kind(t) == TERM_PUBLISHES ? &d->law : term_kind(t) == TERM_SHOWS ? &d->shown : NULL;
+    int *n = list ? &list->n : &d->n_use;
+    term_use *u = list ? &list->use[*n] : &d->use[*n];
+
+    if (*n == DESCRIBE_MAX_TERMS)
         return error_set(err, ERR_CASE, "%s:%d: more than %d terms", b->file, b->line, DESCRIBE_MAX_TERMS);
     *u = (term_use){.plugin = plugin, .term = t, .where = (int)t->where};
     u->params = arena_alloc(&d->memory, t->params_bytes ? t->params_bytes : 1, 1);
     if (!u->params)
         return error_memory(err, "parameters", t->params_bytes);
     term_defaults(t, u->params);
-    d->use_block[d->n_use++] = b;
+    *(list ? &list->block[*n] : &d->use_block[*n]) = b;
+    ++*n;
+    mine->use[mine->n++] = u;
     return 0;
 }
 
@@ -108,7 +119,7 @@ static void read_options(description *d, reader *own, const term_plugin *plugin,
 
 /* Switches on the terms of a line: the one that it names, or all but optional ones and those left out. */
 static int switch_on(description *d, reader *own, const term_plugin *plugin, const char *single,
-                     const line_options *o, error *err)
+                     const line_options *o, line_terms *mine, error *err)
 {
     int found = 0;
 
@@ -119,16 +130,16 @@ static int switch_on(description *d, reader *own, const term_plugin *plugin, con
                    : (t->flags & PF_OPTIONAL) || is_listed(t->name, o->without, o->n_without))
             continue;
         found = 1;
-        TRY(add_use(d, own->b, plugin, t, err));
+        TRY(add_use(d, own->b, plugin, t, mine, err));
         if (!term_has_derivative(t, (enum term_derivative)o->how))
             case_wrong(
                 d->c, own->b, "jacobian",
                 "%s: jacobian = \"%s\", but %s.%s has no such derivative; leave the key out (\"auto\" takes the "
                 "best there is)",
                 own->what, derivative_name[o->how], plugin->d.name, t->name);
-        d->use[d->n_use - 1].how = (enum term_derivative)o->how;
+        mine->use[mine->n - 1]->how = (enum term_derivative)o->how;
         if (o->over && t->where == PF_CELL)
-            d->use[d->n_use - 1].where = PF_FLUID;
+            mine->use[mine->n - 1]->where = PF_FLUID;
     }
     d->incomplete |= !found;
     if (single && !found)
@@ -138,23 +149,41 @@ static int switch_on(description *d, reader *own, const term_plugin *plugin, con
     return 0;
 }
 
-/* What the terms from `first` on say about their parameters, and whether one is on already. */
-static void check_line(description *d, const reader *own, int first)
+/* The line that switches a term on, other than the one read now; NULL: there is none. */
+static const case_block *line_of(const description *d, const pf_term *t, const case_block *but)
 {
-    for (int i = first; i < d->n_use; i++) {
-        const term_use *u = &d->use[i];
+    for (int i = 0; i < d->n_use; i++)
+        if (d->use[i].term == t && d->use_block[i] != but)
+            return d->use_block[i];
+    for (int k = 0; k < 2; k++) {
+        const term_list *l = k ? &d->law : &d->shown;
+
+        for (int i = 0; i < l->n; i++)
+            if (l->use[i].term == t && l->block[i] != but)
+                return l->block[i];
+    }
+    return NULL;
+}
+
+/* What the terms of a line say about their parameters, and whether one is on already. */
+static void check_line(description *d, const reader *own, const line_terms *mine)
+{
+    for (int i = 0; i < mine->n; i++) {
+        const term_use *u = mine->use[i];
         char why[400] = "";
 
         if (u->term->check && u->term->check(u->params, why, sizeof why))
             case_wrong(d->c, own->b, NULL, "%s: %s", own->what, why);
     }
-    for (int i = 0; i < first; i++)
-        for (int k = first; k < d->n_use; k++)
-            if (d->use[i].term == d->use[k].term) {
-                case_wrong(d->c, own->b, NULL, "%s: %s.%s is on already, by line %d", own->what,
-                           d->use[k].plugin->d.name, d->use[k].term->name, d->use_block[i]->line);
-                return;
-            }
+    for (int i = 0; i < mine->n; i++) {
+        const case_block *other = line_of(d, mine->use[i]->term, own->b);
+
+        if (other) {
+            case_wrong(d->c, own->b, NULL, "%s: %s.%s is on already, by line %d", own->what,
+                       mine->use[i]->plugin->d.name, mine->use[i]->term->name, other->line);
+            return;
+        }
+    }
 }
 
 static int read_term(description *d, registry *r, const case_block *b, reader *fluid, int outside, error *err)
@@ -163,7 +192,7 @@ static int read_term(description *d, registry *r, const case_block *b, reader *f
     const char *dot = strchr(b->name, '.'), *single = dot ? dot + 1 : NULL;
     char name[128], *what;
     line_options o = {.over = outside};
-    int first = d->n_use;
+    line_terms mine = {0};
     reader own;
 
     snprintf(name, sizeof name, "%.*s", dot ? (int)(dot - b->name) : (int)strlen(b->name), b->name);
@@ -174,12 +203,12 @@ static int read_term(description *d, registry *r, const case_block *b, reader *f
     sprintf(what, "term \"%s\"", b->name);
     reader_open(&own, d->c, b, what);
     read_options(d, &own, plugin, single != NULL, &o);
-    TRY(switch_on(d, &own, plugin, single, &o, err));
-    for (int i = first; i < d->n_use; i++)
-        TRY(describe_term_keys(d, &own, fluid, &d->use[i], err));
+    TRY(switch_on(d, &own, plugin, single, &o, &mine, err));
+    for (int i = 0; i < mine.n; i++)
+        TRY(describe_term_keys(d, &own, fluid, mine.use[i], err));
     describe_off_keys(d, &own, plugin);
     reader_close(&own);
-    check_line(d, &own, first);
+    check_line(d, &own, &mine);
     return 0;
 }
 
@@ -189,9 +218,9 @@ static int gives_equation(const description *d, const pf_term *t, const field_sp
     int rows = 0;
 
     for (uint32_t o = 0; o < t->n_out; o++)
-        rows |= strcmp(t->out[o].field, f->name) == 0;
+        rows |= term_slot_field(&t->out[o]) && strcmp(t->out[o].field, f->name) == 0;
     for (uint32_t k = 0; k < t->n_in; k++)
-        rows &= t->in[k].eval == PF_DATA || fields_find(&d->fields, t->in[k].field) >= 0;
+        rows &= !term_slot_field(&t->in[k]) || fields_find(&d->fields, t->in[k].field) >= 0;
     return rows && !(t->flags & PF_OPTIONAL) &&
            (f->support == PF_ON_MESH ? t->where <= PF_FLUID : t->where != PF_FACET);
 }
@@ -227,26 +256,33 @@ static void no_equation(description *d, registry *r, const field_spec *f)
                plugin ? "\" {} does" : "");
 }
 
+/* Adds the fields of a term's slots to those of the case; has_rows: for which there is an equation. */
+static int add_fields(description *d, const term_use *u, int *has_rows, error *err)
+{
+    const pf_term *t = u->term;
+
+    for (uint32_t k = 0; k < t->n_in + t->n_out; k++) {
+        const pf_slot *s = k < t->n_in ? &t->in[k] : &t->out[k - t->n_in];
+
+        if (!term_slot_field(s))
+            continue;
+        TRY(fields_add(&d->fields, d->dim, term_field(u->plugin, s->field), u->plugin->d.name, err));
+        has_rows[fields_find(&d->fields, s->field)] |= k >= t->n_in && t->where != PF_FACET;
+    }
+    return 0;
+}
+
 /* Fields of the slots in use; every one needs an equation. */
 static int collect_fields(description *d, registry *r, error *err)
 {
     int has_rows[TERM_MAX_FIELDS] = {0};
 
-    for (int i = 0; i < d->n_use; i++) {
-        const pf_term *t = d->use[i].term;
-
-        for (uint32_t k = 0; k < t->n_in + t->n_out; k++) {
-            const pf_slot *s = k < t->n_in ? &t->in[k] : &t->out[k - t->n_in];
-            int f;
-
-            if (s->eval == PF_DATA)
-                continue;
-            TRY(fields_add(&d->fields, d->dim, term_field(d->use[i].plugin, s->field), d->use[i].plugin->d.name,
-                           err));
-            f = fields_find(&d->fields, s->field);
-            has_rows[f] |= k >= t->n_in && t->where != PF_FACET;
-        }
-    }
+    for (int i = 0; i < d->n_use; i++)
+        TRY(add_fields(d, &d->use[i], has_rows, err));
+    for (int i = 0; i < d->law.n; i++)
+        TRY(add_fields(d, &d->law.use[i], has_rows, err));
+    for (int i = 0; i < d->shown.n; i++)
+        TRY(add_fields(d, &d->shown.use[i], has_rows, err));
     if (d->incomplete)
         return 0;
     for (int f = 0; f < d->fields.n; f++)

@@ -43,9 +43,7 @@ int fields_add(field_list *l, int dim, const pf_field *f, const char *plugin, er
         .declared_by = plugin,
         .constrains = f->constrains,
         .shape = (int)f->shape,
-        .n_comp = f->shape == PF_VECTOR             ? dim
-                  : f->shape == PF_SPIN && dim == 3 ? 3
-                                                    : 1,
+        .n_comp = term_components(f->shape, dim),
         .order = order,
         .support = (int)f->support,
     };

@@ -56,8 +56,15 @@ void registry_destroy(registry *r);
 int term_adopt(const pf_plugin *d, const char *path, arena *memory, term_plugin *out, error *err);
 
 int term_components(uint32_t shape, int dim);
-/* 1 if the slot is an unknown, so that a Jacobian block belongs to it. */
+/* 1 if the slot holds a field of unknowns, of this instant or an earlier one. */
+int term_slot_field(const pf_slot *s);
+/* 1 if the slot is an unknown, so that a Jacobian block belongs to it; the same of a property too, by which a term
+ * is derived. */
 int term_is_unknown(const pf_slot *s);
+int term_is_derived(const pf_slot *s);
+/* What a term's outputs are. */
+enum term_kind { TERM_EQUATION, TERM_PUBLISHES, TERM_SHOWS };
+enum term_kind term_kind(const pf_term *t);
 /* 1 if d/dt of a field meets the field's own test function (field NULL: of any): it stores.  A residual that
  * stabilises has rates, too, but meets slopes of the test function. */
 int term_stores(const pf_term *t, const char *field);

@@ -105,8 +105,8 @@ static const struct CMUnitTest tests[] = {
     TOLD(undefined_symbol, "undefined_symbol.so cannot be loaded", "undefined symbol: a_function_that_nobody_has"),
 
     /* the description of the plugin */
-    TOLD(wrong_abi_major, "built for plugin interface 2.3, this plugflow has 1.3", "rebuild"),
-    TOLD(needs_newer_minor, "needs plugin interface 1.4 or later, this plugflow has 1.3", "update plugflow"),
+    TOLD(wrong_abi_major, "built for plugin interface 2.4, this plugflow has 1.4", "rebuild"),
+    TOLD(needs_newer_minor, "needs plugin interface 1.5 or later, this plugflow has 1.4", "update plugflow"),
     TOLD(plugin_too_small, "its pf_plugin has 40 bytes, at least", "set .size = sizeof(pf_plugin)"),
     TOLD(other_type_sizes, "built with other type sizes (0x40404, here 0x80808)"),
     TOLD(bad_plugin_name, "has no proper name"),
@@ -130,7 +130,7 @@ static const struct CMUnitTest tests[] = {
     TOLD(no_residual, "term convection: has no residual function"),
     TOLD(no_output, "term convection: has no output"),
     TOLD(unknown_place, "acts on unknown points, where = 17"),
-    TOLD(on_particles, "acts on PF_PARTICLE points, which this version does not feed yet"),
+    TOLD(on_particles, "slot \"u\": at PF_PARTICLE points fields of particles and of the problem are there"),
     TOLD(by_boundary_in_cells, "has PF_BY_BOUNDARY, so it must act on PF_FACET"),
 
     /* slots */
@@ -142,11 +142,11 @@ static const struct CMUnitTest tests[] = {
     TOLD(defect_slot, "slot \"u\" asks for PF_DEFECT, which only PF_CUT and PF_PAIR points have"),
     TOLD(laplacian_of_a_test_function,
          "output slot \"v\": PF_LAPLACE is for input slots; of a test function there are "),
-    TOLD(laplacian_on_pairs, "slot \"u\": on PF_PAIR points fields are there as PF_DEFECT only"),
-    TOLD(laplacian_in_cut_cells, "slot \"u\": on PF_CUT points fields are there as PF_DEFECT only"),
-    TOLD(laplacian_off_the_mesh,
-         "input slot \"lap_p\": field \"p\" does not live on the mesh and has no Laplacian"),
-    TOLD(laplacian_of_a_body, "input slot \"lap_p\": field \"p\" does not live on the mesh and has no Laplacian"),
+    TOLD(laplacian_on_pairs,
+         "slot \"u\": on PF_PAIR points fields on particles are there, as PF_DEFECT, PF_VALUE or PF_OTHER"),
+    TOLD(laplacian_in_cut_cells, "slot \"u\": on PF_CUT points fields on the mesh are there, as PF_DEFECT only"),
+    TOLD(laplacian_off_the_mesh, "slot \"lap_p\": field \"p\" does not live on the mesh and has no Laplacian"),
+    TOLD(laplacian_of_a_body, "slot \"lap_p\": field \"p\" does not live on the mesh and has no Laplacian"),
     TOLD(laplacian_of_wrong_shape, "input slot \"grad_u\": the Laplacian of field \"u\" has another shape"),
     TOLD(laplacian_without_minor, "uses PF_LAPLACE of plugin interface 1.3", "set .min_minor = 3 in its pf_plugin"),
     TOLD(metric_without_minor, "uses PF_METRIC of plugin interface 1.3", "set .min_minor = 3 in its pf_plugin"),
