@@ -64,14 +64,13 @@ static int F(tension)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 
         for (uint32_t a = 0; a < d; a++)
             for (uint32_t k = 0; k < d; k++)
-                grad_v[(a * d + k) * LD + i] =
-                    l->tension * ((a == k ? s : 0) - g[a * LD + i] * g[k * LD + i] / s);
+                grad_v[(a * d + k) * LD + i] = l->tension * ((a == k ? s : 0) - g[a * LD + i] * g[k * LD + i] / s);
     }
     return PF_OK;
 }
 
-/* rho (du/dt + (u . grad) u - g) . v + 2 mu D(u) : grad v - p div v, without the weight of the first fluid if p is the
- * reduced pressure */
+/* rho (du/dt + (u . grad) u - g) . v + 2 mu D(u) : grad v - p div v, without the weight of the first fluid if p is
+ * the reduced pressure */
 static int F(momentum)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct level_set *l = b->params;

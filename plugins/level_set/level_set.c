@@ -23,8 +23,7 @@ struct level_set {
 #include <plugflow/twin_complex.h>
 #include "equations.h"
 
-#define KEY(MEMBER, UNIT, DOC)                                                                                     \
-    PF_NUMBER(struct level_set, MEMBER, UNIT, DOC, .flags = PF_REQUIRED, PF_NOT_NEGATIVE)
+#define KEY(MEMBER, UNIT, DOC) PF_NUMBER(struct level_set, MEMBER, UNIT, DOC, .flags = PF_REQUIRED, PF_NOT_NEGATIVE)
 
 #define THICKNESS KEY(thickness, "m", "e of the interface, phi = 1/(1 + exp(d/e)); half a cell or more")
 
@@ -47,8 +46,7 @@ static const pf_term compression = {
     .cite = "Olsson and Kreiss 2005, J. Comput. Phys. 210:225; Chiu and Lin 2011, J. Comput. Phys. 230:185",
     PF_IN({"phi", "phi", PF_VALUE, PF_SCALAR}, {"grad_phi", "phi", PF_GRAD, PF_VECTOR}),
     PF_OUT({"grad_s", "phi", PF_GRAD, PF_VECTOR}),
-    PF_PARAMS(struct level_set,
-              THICKNESS,
+    PF_PARAMS(struct level_set, THICKNESS,
               KEY(speed, "m/s", "at which the interface is restored; about the largest velocity")),
     PF_EXAMPLES({"e = 0.1, c = 2, phi = 1/4, grad phi = (3, -4): 2 (0.1 - 3/80) grad phi", 2, (double[]){0.1, 2},
                  (double[]){0.25, 3, -4}, (double[]){0.375, -0.5}, 1e-5}),
