@@ -200,3 +200,24 @@ int bench_call(bench *k, double *const *out, const char *what)
                    k->report.status ? k->report.text : "without saying why (host->fail gives the reason)");
     return status == 0;
 }
+
+int bench_start(bench *k)
+{
+    char why[400] = "";
+
+    bench_end(k);
+    if (term_start(k->p, k->t, k->params, k->dim, 0, 1, why, sizeof why)) {
+        bench_line(k, 0, "%s  init in %dD refuses its parameters: %s", k->t->name, k->dim,
+                   *why ? why : "it does not say why");
+        return 0;
+    }
+    k->started = 1;
+    return 1;
+}
+
+void bench_end(bench *k)
+{
+    if (k->started)
+        term_end(k->p, k->t, k->params);
+    k->started = 0;
+}

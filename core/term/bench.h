@@ -15,6 +15,7 @@ typedef struct bench {
     const pf_term *t;
     int dim;
     void *params;
+    int started; /* the term's init has been called */
     double *in[TERM_MAX_SLOTS], *out[TERM_MAX_SLOTS], *again[TERM_MAX_SLOTS];
     double *jac[TERM_MAX_SLOTS * TERM_MAX_SLOTS], *truth[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
     double *x, *normal, *h, *arm, *density, *metric;
@@ -28,6 +29,11 @@ typedef struct bench {
 
 /* Memory, points, parameters and inputs; freed with arena_free(&k->memory) whatever comes back. */
 int bench_create(bench *k, selftest *s, const term_plugin *p, const pf_term *t, int dim, error *err);
+
+/* The term makes ready for these parameters (pf_term.init); 0: it does not, and the line is out.  Once more for
+ * others. */
+int bench_start(bench *k);
+void bench_end(bench *k);
 
 /* A line of the report, and its count; ok = 0: what is wrong. */
 void bench_line(bench *k, int ok, const char *fmt, ...) __attribute__((format(printf, 3, 4)));

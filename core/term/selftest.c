@@ -11,11 +11,12 @@ static int test_term(selftest *s, const term_plugin *p, const pf_term *t, error 
         bench k;
         int status = bench_create(&k, s, p, t, dim, err);
 
-        if (!status && selftest_values(&k))
+        if (!status && bench_start(&k) && selftest_values(&k))
             selftest_jacobian(&k);
         for (uint32_t e = 0; e < t->n_example && !status; e++)
             if ((int)t->example[e].dim == dim)
                 selftest_example(&k, &t->example[e]);
+        bench_end(&k);
         arena_free(&k.memory);
         TRY(status);
     }

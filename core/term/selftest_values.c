@@ -155,6 +155,8 @@ void selftest_example(bench *k, const pf_example *e)
         bench_put_param(k, &k->t->param[i], params);
         params += k->t->param[i].type == PF_T_VECTOR ? k->dim : 1;
     }
+    if (!bench_start(k))
+        return;
     place_example_metric(k);
     for (uint32_t i = 0; i < k->t->n_in; i++)
         for (int c = 0; c < bench_components(k, &k->t->in[i]); c++, in++)
