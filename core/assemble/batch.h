@@ -20,7 +20,7 @@ typedef struct workspace {
     v8 *basis[3][BASIS_ROWS]; /* [order][value, d/dx, d/dy, d/dz, Laplacian]: [i][n_q], i padded; NULL: not used, or
                                the class has a tensor rule */
     v8 *dof;                  /* nodal values of one field                               */
-    v8 *rate;                 /* [3 + 9][n_q] room: a field and its gradient */
+    v8 *rate;                 /* room: a field and its gradient */
     const v8 *frame;          /* w and history of this batch, see assembly_class; NULL: none */
     v8 *in, *test, *block, *out, *jac, *room;
     uint8_t *filled;     /* [block_size] 1: some term has that entry of D; others have no value */

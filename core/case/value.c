@@ -80,7 +80,15 @@ static int bad_number(lua_State *l, int n)
     return 0;
 }
 
-static int expected(case_file *c, const case_block *b, const char *key, int n)
+/* In which order the components of a tensor stand; of a vector nobody asks. */
+static const char *order_of(int n, int dim)
+{
+    if (dim == 2)
+        return n == 3 ? " {xx, xy, yy}" : n == 4 ? " {xx, xy, yx, yy}" : "";
+    return n == 6 ? " {xx, xy, xz, yy, yz, zz}" : n == 9 ? " {xx, xy, xz, yx, yy, yz, zx, zy, zz}" : "";
+}
+
+static int expected(case_file *c, const case_block *b, const char *key, int n, int dim)
 {
     lua_State *l = c->lua;
     int bad = bad_number(l, n);
@@ -92,10 +100,10 @@ static int expected(case_file *c, const case_block *b, const char *key, int n)
         case_wrong(c, b, key, "%s: \"%s\": component %d is not a finite number", b->kind, key, bad);
     else
         case_wrong(c, b, key,
-                   "%s: \"%s\": expected %d components in braces (numbers, functions or free) or a function that "
+                   "%s: \"%s\": expected %d components%s in braces (numbers, functions or free) or a function that "
                    "returns %d "
                    "numbers, got %s%s",
-                   b->kind, key, n, n, luaL_typename(l, -1),
+                   b->kind, key, n, order_of(n, dim), n, luaL_typename(l, -1),
                    lua_istable(l, -1) && (int)lua_rawlen(l, -1) != n ? " of another length" : "");
     lua_pop(l, 1);
     return -1;
@@ -164,16 +172,16 @@ int case_value(case_file *c, const case_block *b, const char *key, int n, int di
     if (n == 1) {
         lua_pushvalue(l, -1);
         if (!component(l, v, out, 0))
-            return expected(c, b, key, n);
+            return expected(c, b, key, n, dim);
         lua_pop(l, 1);
         return 1;
     }
     if (!lua_istable(l, -1) || (int)lua_rawlen(l, -1) != n)
-        return expected(c, b, key, n);
+        return expected(c, b, key, n, dim);
     for (int k = 0; k < n; k++) {
         lua_rawgeti(l, -1, k + 1);
         if (!component(l, v, out, k))
-            return expected(c, b, key, n);
+            return expected(c, b, key, n, dim);
     }
     lua_pop(l, 1);
     return 1;

@@ -22,9 +22,13 @@ static void print_conditions(const problem *p)
 
         printf("  %s (%s, %s): prescribed on", g->name, g->doc, g->unit);
         for (int i = 0; i < p->description.n_line; i++)
-            if (p->description.line[i].has_value[f] || (p->description.line[i].symmetry && g->n_comp > 1)) {
+            if (p->description.line[i].has_value[f] ||
+                (p->description.line[i].symmetry && g->n_comp > 1 &&
+                 (g->shape == PF_VECTOR || term_is_tensor((uint32_t)g->shape)))) {
                 printf(" \"%s\"%s", p->description.line[i].name,
-                       p->description.line[i].has_value[f] ? "" : " (normal component)");
+                       p->description.line[i].has_value[f] ? ""
+                       : g->shape == PF_VECTOR             ? " (normal component)"
+                                                           : " (components of the normal with others)");
                 any = 1;
             }
         printf("%s\n", any ? "" : " no boundary");

@@ -56,6 +56,13 @@ void registry_destroy(registry *r);
 int term_adopt(const pf_plugin *d, const char *path, arena *memory, term_plugin *out, error *err);
 
 int term_components(uint32_t shape, int dim);
+/* What tells component k of a field from the others: "", "x", "xy"; and a shape in words, "symmetric tensor". */
+const char *term_component(uint32_t shape, int n_comp, int k);
+const char *term_shape_name(uint32_t shape);
+int term_is_tensor(uint32_t shape);
+/* 1 if a mirror with this axis as its normal turns the sign of component k of a field: u_x, or T_xy, in the mirror
+ * x = 0.  On a plane of symmetry it is zero. */
+int term_turns_sign(uint32_t shape, int n_comp, int k, int axis);
 /* 1 if the slot holds a field of unknowns, of this instant or an earlier one. */
 int term_slot_field(const pf_slot *s);
 /* 1 if the slot is an unknown, so that a Jacobian block belongs to it; the same of a property too, by which a term
