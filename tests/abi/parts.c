@@ -17,7 +17,7 @@ static int begin(void *params, const pf_setup *s, char *err, size_t nerr)
 {
     struct conduct *c = params;
 
-    if (s->size < sizeof *s || (s->dim != 2 && s->dim != 3) || s->n_body != 0 || !s->host) {
+    if (s->size < sizeof *s || (s->dim != 2 && s->dim != 3) || s->n_body < 0 || !s->host) {
         snprintf(err, nerr, "what a run is was not said");
         return 1;
     }
