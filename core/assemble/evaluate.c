@@ -134,6 +134,8 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
         }
     memset(w->jac, 0, used * sizeof(double));
     status = term_jacobian(t, p->use->how, b, in, jac, w->room);
+    if (!status && p->inside >= 0) /* blocks lie one after the other */
+        inside_mask(c, p, w, at, (int)(used / ld));
     if (!status && diagnose && find_nan_derivative(t, b, jac, &w->report))
         return PF_FAIL;
     for (uint32_t o = 0; o < t->n_out && !status; o++)
@@ -165,7 +167,7 @@ static uint32_t kinds(const assembly *a, const plan_use *p)
     for (uint32_t i = 0; (t->where == PF_SOLID || t->where == PF_SURFACE) && i < t->n_in + t->n_out; i++) {
         const pf_slot *s = i < t->n_in ? &t->in[i] : &t->out[i - t->n_in];
 
-        if (s->eval != PF_DATA && a->space->field[space_find_field(a->space, s->field)].order > 0)
+        if (term_slot_field(s) && a->space->field[space_find_field(a->space, s->field)].order > 0)
             k |= ASSEMBLE_COUPLING;
     }
     k |= term_stores(t, NULL) ? ASSEMBLE_INERTIA : 0;
@@ -233,7 +235,7 @@ static int evaluate_term(const assembly_class *c, const assembly_state *s, int64
     b->metric = t->flags & PF_METRIC ? (double *)w->metric : NULL;
     w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
     process_enter(w->report.plugin, t->name, "residual", cell);
-    status = t->residual(b, in, out);
+    status = inside_residual(c, p, b, in, out, w);
     if (!status && diagnose && find_nan_output(t, b, out, &w->report))
         status = PF_FAIL;
     if (!status) {
@@ -270,7 +272,7 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
     for (int u = 0; u < c->n_use; u++) {
         const plan_use *p = &c->use[u];
 
-        if (strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)))
+        if (strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)) && inside_any(c, p, w))
             TRY(evaluate_term(c, s, batch, p, dim, with_matrix, diagnose, &b, w));
     }
     return 0;

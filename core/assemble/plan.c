@@ -96,6 +96,12 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
     int dim = s->mesh->dim;
 
     p->use = use;
+    p->inside = -1;
+    if (use->inside) {
+        p->inside = find_input(c, s, &(pf_slot){.eval = PF_DATA, .shape = PF_SCALAR}, use->inside, err);
+        if (p->inside < 0)
+            return err->code;
+    }
     c->any_metric |= (t->flags & PF_METRIC) != 0;
     for (uint32_t k = 0; k < t->n_in; k++) {
         const pf_slot *slot = &t->in[k];
