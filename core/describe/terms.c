@@ -119,7 +119,18 @@ static void read_options(description *d, reader *own, const term_plugin *plugin,
                   &o->over);
 }
 
-/* Switches on the terms of a line: the one that it names, or all but optional ones and those left out. */
+/* What the equations of a plugin need where the fluid ends at the surfaces of bodies, and only there. */
+static int is_for_sharp(const term_plugin *plugin, const pf_term *t)
+{
+    int in_cells = 0;
+
+    for (uint32_t i = 0; i < plugin->d.n_term; i++)
+        in_cells |= plugin->term[i].where == PF_CELL || plugin->term[i].where == PF_FLUID;
+    return in_cells && (t->where == PF_SURFACE || t->where == PF_CUT);
+}
+
+/* Switches on the terms of a line: the one that it names, or all but optional ones, those left out, and those at
+ * the surfaces of bodies if the fluid goes on inside of them. */
 static int switch_on(description *d, reader *own, const term_plugin *plugin, const char *single,
                      const line_options *o, line_terms *mine, error *err)
 {
@@ -129,7 +140,8 @@ static int switch_on(description *d, reader *own, const term_plugin *plugin, con
         const pf_term *t = &plugin->term[i];
 
         if (single ? strcmp(t->name, single) != 0
-                   : (t->flags & PF_OPTIONAL) || is_listed(t->name, o->without, o->n_without))
+                   : (t->flags & PF_OPTIONAL) || is_listed(t->name, o->without, o->n_without) ||
+                         (!o->over && is_for_sharp(plugin, t)))
             continue;
         found = 1;
         TRY(add_use(d, own->b, plugin, t, mine, err));
