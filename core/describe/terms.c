@@ -117,6 +117,17 @@ static void read_options(description *d, reader *own, const term_plugin *plugin,
                   &o->over);
 }
 
+/* Terms that make sense in 2D, or in 3D, alone. */
+static void check_dimension(description *d, const reader *own, const term_plugin *plugin, const pf_term *t)
+{
+    const int only = t->flags & PF_ONLY_2D ? 2 : t->flags & PF_ONLY_3D ? 3 : d->dim;
+
+    if (only != d->dim)
+        case_wrong(d->c, own->b, NULL,
+                   "%s: %s.%s is for cases in %dD, and this one is in %dD; leave it out, or take a mesh in %dD",
+                   own->what, plugin->d.name, t->name, only, d->dim, only);
+}
+
 /* Switches on the terms of a line: the one that it names, or all but optional ones and those left out. */
 static int switch_on(description *d, reader *own, const term_plugin *plugin, const char *single,
                      const line_options *o, line_terms *mine, error *err)
@@ -130,6 +141,7 @@ static int switch_on(description *d, reader *own, const term_plugin *plugin, con
                    : (t->flags & PF_OPTIONAL) || is_listed(t->name, o->without, o->n_without))
             continue;
         found = 1;
+        check_dimension(d, own, plugin, t);
         TRY(add_use(d, own->b, plugin, t, mine, err));
         if (!term_has_derivative(t, (enum term_derivative)o->how))
             case_wrong(

@@ -184,7 +184,7 @@ int bench_create(bench *k, selftest *s, const term_plugin *p, const pf_term *t, 
     place_params(k);
     bench_random_inputs(k);
     k->b = batch_of(k);
-    return 0;
+    return bench_bodies(k, err);
 }
 
 int bench_call(bench *k, double *const *out, const char *what)

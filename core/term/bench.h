@@ -18,7 +18,8 @@ typedef struct bench {
     double *in[TERM_MAX_SLOTS], *out[TERM_MAX_SLOTS], *again[TERM_MAX_SLOTS];
     double *jac[TERM_MAX_SLOTS * TERM_MAX_SLOTS], *truth[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
     double *x, *normal, *h, *arm, *density, *metric;
-    int32_t *id;
+    int32_t *id, *other_id;
+    double *body; /* what points of bodies have beside these (bench_bodies.c) */
     void *room, *scratch;
     term_report report;
     pf_batch b;
@@ -28,6 +29,10 @@ typedef struct bench {
 
 /* Memory, points, parameters and inputs; freed with arena_free(&k->memory) whatever comes back. */
 int bench_create(bench *k, selftest *s, const term_plugin *p, const pf_term *t, int dim, error *err);
+
+/* What interface 1.4 has of bodies at points, into k->b: axes are orthonormal, inertia positive definite, arms of a
+ * pair fit its centres. */
+int bench_bodies(bench *k, error *err);
 
 /* A line of the report, and its count; ok = 0: what is wrong. */
 void bench_line(bench *k, int ok, const char *fmt, ...) __attribute__((format(printf, 3, 4)));

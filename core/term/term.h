@@ -102,6 +102,7 @@ typedef struct term_use {
     void *params;
     enum term_derivative how;
     const value *data[TERM_MAX_SLOTS]; /* for PF_DATA slots */
+    const double *key[TERM_MAX_SLOTS]; /* for PF_BODY_KEY and PF_OTHER_KEY slots: [n_body][components] */
 } term_use;
 
 /* --- fields: the unknowns that plugins declare (fields.c) --- */
