@@ -67,8 +67,8 @@ static void nodal(const space *s, int f, const double *x, const vtu_bodies *bodi
             for (int k = 0; k < width; k++)
                 v[(int64_t)cell[i] * width + k] = of[k] < 0 ? 0 : own[of[k]];
         }
-    for (int64_t n = 0; bodies && bodies->empty >> f & 1 && n < m->n_node; n++)
-        for (int k = 0; bodies->body[n] >= 0 && k < width; k++)
+    for (int64_t n = 0; bodies && n < m->n_node; n++)
+        for (int k = 0; (bodies->body[n] >= 0 ? bodies->empty : bodies->empty_outside) >> f & 1 && k < width; k++)
             v[n * width + k] = NAN;
 }
 
