@@ -36,6 +36,10 @@ void inputs_values(const assembly *a, const assembly_class *c, const assembly_st
         const double *from = in->eval == PF_DOT ? s->dot : in->eval == PF_OLD ? s->old : s->x;
         v8 *out = w->in + in->at * (size_t)nq;
 
+        if (in->kept >= 0) {
+            kept_values(a, c, s, batch, in, w, out);
+            continue;
+        }
         if (in->field < 0) {
             for (int i = 0; i < in->n_comp; i++)
                 for (int q = 0; q < nq; q++)

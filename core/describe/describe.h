@@ -142,6 +142,9 @@ typedef struct description {
     boundary_line *line;
     int n_body;
     body_spec *body;
+    field_list kept; /* memory of terms, and what it starts from */
+    value kept_initial[TERM_MAX_FIELDS];
+    int has_kept[TERM_MAX_FIELDS];
     value initial[TERM_MAX_FIELDS], exact[TERM_MAX_FIELDS];
     value offset[TERM_MAX_FIELDS]; /* added to what is written, not to what is solved */
     int has_initial[TERM_MAX_FIELDS], has_exact[TERM_MAX_FIELDS], has_offset[TERM_MAX_FIELDS];
@@ -209,6 +212,10 @@ int describe_check_twice(description *d, const reader *own, const term_use *u);
 /* Marks the terms that others replace; takes them out. */
 void describe_replace(description *d, registry *r);
 void describe_leave_out(description *d);
+/* Memory of the terms that are on (kept.c). */
+int describe_kept(description *d, error *err);
+void describe_initial_kept(description *d, reader *r);
+void describe_check_kept(const description *d);
 /* pf_term.init of all terms.  ERR_CASE. */
 int describe_start(description *d, error *err);
 /* Parameters and data of a term that is on, from its line and from fluid{}. */
