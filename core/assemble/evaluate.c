@@ -119,7 +119,7 @@ static int find_nan_derivative(const pf_term *t, const pf_batch *b, double *cons
 }
 
 static int add_jacobian(const assembly_class *c, const assembly_state *s, const plan_use *p, const pf_batch *b,
-                        const double *const *in, int dim, int diagnose, workspace *w)
+                        const double *const *in, const int *within, int dim, int diagnose, workspace *w)
 {
     const pf_term *t = p->use->term;
     double *jac[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
@@ -136,6 +136,8 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
     status = term_jacobian(t, p->use->how, b, in, jac, w->room);
     if (!status && p->inside >= 0) /* blocks lie one after the other */
         inside_mask(c, p, w, at, (int)(used / ld));
+    if (within)
+        reach_mask(within, at, used);
     if (!status && diagnose && find_nan_derivative(t, b, jac, &w->report))
         return PF_FAIL;
     for (uint32_t o = 0; o < t->n_out && !status; o++)
@@ -189,10 +191,10 @@ int evaluate_any(const assembly *a, const assembly_class *c, const assembly_stat
 pf_batch evaluate_batch(const assembly_class *c, const assembly_state *s, int dim, workspace *w)
 {
     int on_pair = c->where == PF_PAIR, on_surface = c->where == PF_SURFACE;
-    int on_body = c->where == PF_SOLID || on_surface || on_pair;
+    int on_particle = c->where == PF_PARTICLE,
+        on_body = c->where == PF_SOLID || on_surface || on_pair || on_particle;
     uint32_t ld = (uint32_t)(c->n_q * (int)PF_LANES);
-
-    return (pf_batch){
+    pf_batch b = {
         .size = sizeof(pf_batch),
         .dim = (uint32_t)dim,
         .n = ld,
@@ -203,7 +205,7 @@ pf_batch evaluate_batch(const assembly_class *c, const assembly_state *s, int di
         .x = (double *)w->x,
         .normal = c->where == PF_FACET || on_surface || on_pair ? (double *)w->normal : NULL,
         .h = (double *)w->h,
-        .arm = c->where == PF_SOLID || on_surface ? (double *)w->arm : NULL,
+        .arm = on_body && (!on_pair || c->any_body_data) ? (double *)w->arm : NULL,
         .density = on_body ? (double *)w->density : NULL,
         .id = on_body ? w->id : NULL,
         .gap = on_pair ? (double *)w->gap : NULL,
@@ -214,6 +216,9 @@ pf_batch evaluate_batch(const assembly_class *c, const assembly_state *s, int di
         .kernel = &w->report,
         .host = &term_host,
     };
+
+    body_data_show(c, w, &b);
+    return b;
 }
 
 int evaluate_term(const assembly_class *c, const plan_use *p, int64_t batch, pf_batch *b, const double **in,
@@ -230,6 +235,7 @@ int evaluate_term(const assembly_class *c, const plan_use *p, int64_t batch, pf_
     }
     b->params = p->use->params;
     b->metric = t->flags & PF_METRIC ? (double *)w->metric : NULL;
+    b->wall_distance = t->flags & PF_WALL_DISTANCE ? (double *)(c->wall + batch * c->n_q) : NULL;
     w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
     process_enter(w->report.plugin, t->name, "residual", c->cell[c->batch[batch]]);
     return inside_residual(c, p, b, in, out, w);
@@ -247,14 +253,20 @@ int evaluate_end(int status, workspace *w)
 }
 
 /* Residual and, if asked for, derivatives of one term, added to what the others gave. */
-static int add_term(const assembly_class *c, const assembly_state *s, int64_t batch, const plan_use *p, int dim,
-                    int with_matrix, int diagnose, pf_batch *b, workspace *w)
+static int add_term(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                    const plan_use *p, int with_matrix, int diagnose, pf_batch *b, workspace *w)
 {
     const pf_term *t = p->use->term;
     const double *in[TERM_MAX_SLOTS];
     double *out[TERM_MAX_SLOTS];
-    int status = evaluate_term(c, p, batch, b, in, out, w);
+    int dim = (int)b->dim, within[PF_LANES], n_within = reach_of(a, c, p->use, w, within);
+    int status, masked = n_within < (int)PF_LANES;
 
+    if (n_within == 0)
+        return 0;
+    status = evaluate_term(c, p, batch, b, in, out, w);
+    for (uint32_t o = 0; masked && o < t->n_out; o++)
+        reach_mask(within, out[o], (size_t)term_components(t->out[o].shape, dim) * b->ld);
     if (!status && diagnose && evaluate_find_nan(t, b, out, &w->report))
         status = PF_FAIL;
     if (!status) {
@@ -265,7 +277,7 @@ static int add_term(const assembly_class *c, const assembly_state *s, int64_t ba
     if (!status) {
         process_enter(w->report.plugin, t->name, "Jacobian", c->cell[c->batch[batch]]);
         if (with_matrix)
-            status = add_jacobian(c, s, p, b, in, dim, diagnose, w);
+            status = add_jacobian(c, s, p, b, in, masked ? within : NULL, dim, diagnose, w);
     }
     return evaluate_end(status, w);
 }
@@ -286,7 +298,7 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
         const plan_use *p = &c->use[u];
 
         if (p->equations && strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)) && inside_any(c, p, w))
-            TRY(add_term(c, s, batch, p, dim, with_matrix, diagnose, &b, w));
+            TRY(add_term(a, c, s, batch, p, with_matrix, diagnose, &b, w));
     }
     return 0;
 }

@@ -19,7 +19,8 @@ enum {
     DESCRIBE_MAX_PROBES = 64,
     DESCRIBE_MAX_CONTINUED = 16,
     DESCRIBE_MAX_ITERATIONS = 50,
-    DESCRIBE_MAX_PLANES = 64
+    DESCRIBE_MAX_PLANES = 64,
+    DESCRIBE_MAX_KEYS = 32
 };
 
 /* A symmetry plane: x_axis = at. */
@@ -51,6 +52,15 @@ typedef struct boundary_line {
     value flux_value[DESCRIBE_MAX_TERMS];
 } boundary_line;
 
+/* A key of particle{} that terms ask for (PF_BODY_KEY). */
+typedef struct body_key {
+    const char *name, *unit, *doc;
+    const term_use *use; /* the first that has it */
+    int n_comp, vector;
+    double dflt, min, max;
+    double *value; /* [n_body][n_comp] */
+} body_key;
+
 enum body_motion { BODY_FREE, BODY_FIXED, BODY_PRESCRIBED };
 
 /* particle {}, or one of particles {}. */
@@ -61,6 +71,9 @@ typedef struct body_spec {
     int motion;     /* enum body_motion */
     pose start;
     value velocity, spin; /* at the start, of the surface (fixed), or prescribed: functions of t */
+    double *key;          /* [n_key][3] of the description's keys */
+    uint32_t has_field;   /* bit f: the body says how its field f starts, */
+    double *field;        /* [TERM_MAX_FIELDS][3] and this is it */
     int held[6];          /* components of velocity (3) and spin (3; 2D: the last) held          */
 } body_spec;
 
@@ -145,6 +158,9 @@ typedef struct description {
     field_list kept; /* memory of terms, and what it starts from */
     value kept_initial[TERM_MAX_FIELDS];
     int has_kept[TERM_MAX_FIELDS];
+    int n_key;
+    body_key key[DESCRIBE_MAX_KEYS];
+    reader *reading; /* the block of a body that is being read */
     value initial[TERM_MAX_FIELDS], exact[TERM_MAX_FIELDS];
     value offset[TERM_MAX_FIELDS]; /* added to what is written, not to what is solved */
     int has_initial[TERM_MAX_FIELDS], has_exact[TERM_MAX_FIELDS], has_offset[TERM_MAX_FIELDS];
@@ -175,6 +191,8 @@ void describe_destroy(description *d);
 int describe_has(const description *d, int where);
 /* Whether the mesh is a box that nothing bends, so that its sides are known before it is made. */
 int describe_is_box(const description *d);
+/* The field that is the bodies' velocity, or angular velocity (spin = 1); -1: none. */
+int describe_motion(const description *d, int spin);
 /* Whether bodies move in time. */
 int describe_moves(const description *d);
 
@@ -228,6 +246,14 @@ const pf_param *describe_param(const term_use *u, const char *name);
 /* 1 if a term on cells has the field among its unknowns and its test functions (off the diagonal a prescribed value
  * would take the place of another balance). */
 int describe_field_is_balanced(const description *d, int f);
+/* A key that no term has asked for in this block, but another term or block has it. */
+void describe_misplaced(description *d, reader *r, const char *key, const char *fmt, ...)
+    __attribute__((format(printf, 4, 5)));
+/* Which keys bodies have by terms; those of a body, and how its fields start; then, with all bodies, to the terms.
+ */
+int describe_body_keys(description *d, error *err);
+int describe_body_extras(description *d, reader *r, body_spec *q, error *err);
+int describe_hand_out_keys(description *d, error *err);
 /* Everything of a body but its place. */
 int describe_body(description *d, reader *r, body_spec *q, error *err);
 /* The shape that disk{}, sphere{} ... left on top of the Lua stack; pops it. */

@@ -119,7 +119,29 @@ static void read_options(description *d, reader *own, const term_plugin *plugin,
                   &o->over);
 }
 
-/* Switches on the terms of a line: the one that it names, or all but optional ones and those left out. */
+/* What the equations of a plugin need where the fluid ends at the surfaces of bodies, and only there. */
+static int is_for_sharp(const term_plugin *plugin, const pf_term *t)
+{
+    int in_cells = 0;
+
+    for (uint32_t i = 0; i < plugin->d.n_term; i++)
+        in_cells |= plugin->term[i].where == PF_CELL || plugin->term[i].where == PF_FLUID;
+    return in_cells && (t->where == PF_SURFACE || t->where == PF_CUT);
+}
+
+/* Terms that make sense in 2D, or in 3D, alone. */
+static void check_dimension(description *d, const reader *own, const term_plugin *plugin, const pf_term *t)
+{
+    const int only = t->flags & PF_ONLY_2D ? 2 : t->flags & PF_ONLY_3D ? 3 : d->dim;
+
+    if (only != d->dim)
+        case_wrong(d->c, own->b, NULL,
+                   "%s: %s.%s is for cases in %dD, and this one is in %dD; leave it out, or take a mesh in %dD",
+                   own->what, plugin->d.name, t->name, only, d->dim, only);
+}
+
+/* Switches on the terms of a line: the one that it names, or all but optional ones, those left out, and those at
+ * the surfaces of bodies if the fluid goes on inside of them. */
 static int switch_on(description *d, reader *own, const term_plugin *plugin, const char *single,
                      const line_options *o, line_terms *mine, error *err)
 {
@@ -129,9 +151,11 @@ static int switch_on(description *d, reader *own, const term_plugin *plugin, con
         const pf_term *t = &plugin->term[i];
 
         if (single ? strcmp(t->name, single) != 0
-                   : (t->flags & PF_OPTIONAL) || is_listed(t->name, o->without, o->n_without))
+                   : (t->flags & PF_OPTIONAL) || is_listed(t->name, o->without, o->n_without) ||
+                         (!o->over && is_for_sharp(plugin, t)))
             continue;
         found = 1;
+        check_dimension(d, own, plugin, t);
         TRY(add_use(d, own->b, plugin, t, mine, err));
         if (!term_has_derivative(t, (enum term_derivative)o->how))
             case_wrong(

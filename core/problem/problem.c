@@ -109,6 +109,7 @@ static int make_system(problem *p, const linear_choice *solvers, error *err)
                                         .facet_on = p->conditions.facet[i]};
     TRY(system_create(&p->system, &p->space, spec, n, solvers, p->n_thread, err));
     p->system.linear.warnings = &p->warnings;
+    p->system.assembly.walls = p->bodies.has_walls ? &p->bodies.walls : NULL;
     p->system.gauge.sharp = p->bodies.has_surface;
     return 0;
 }

@@ -68,6 +68,7 @@ static assembly_state state_of(newton_system *s, const newton_time *time, const 
                             .dot = s->work,
                             .old = time->old ? time->old : x,
                             .kept = time->kept,
+                            .fluid = time->fluid,
                             .bodies = time->bodies,
                             .frame = time->frame,
                             .faded = time->faded,
