@@ -110,6 +110,7 @@ typedef struct plan_basis {
 typedef struct plan_use {
     term_use *use;
     int number;                /* of the use in all classes, see assembly.use     */
+    int inside;                /* index into input[]: acts where that is above 0; -1: everywhere */
     int in[TERM_MAX_SLOTS];    /* index into input[]                            */
     int out[TERM_MAX_SLOTS];   /* index into test[]                             */
     int trial[TERM_MAX_SLOTS]; /* index into trial[], -1 where no unknown        */

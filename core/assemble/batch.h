@@ -34,7 +34,7 @@ typedef struct workspace {
     v8 *basis[3][BASIS_ROWS]; /* [order][value, d/dx, d/dy, d/dz, Laplacian]: [i][n_q], i padded; NULL: not used, or
                                the class has a tensor rule */
     v8 *dof;                  /* nodal values of one field                               */
-    v8 *rate;                 /* [3 + 9][n_q] room: a field and its gradient */
+    v8 *rate;                 /* room: a field and its gradient */
     const v8 *frame;          /* w and history of this batch, see assembly_class; NULL: none */
     v8 *in, *test, *block, *out, *jac, *room;
     uint8_t *filled;     /* [block_size] 1: some term has that entry of D; others have no value */
@@ -138,6 +138,12 @@ int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, c
 void power_clear(assembly *a);
 /* The sums of all threads, in their order. */
 void power_sum(const assembly *a, assembly_power *power);
+/* inside.c.  Whether a term acts at any point of the batch; of n rows [ld] what is left where it does not: zero. */
+int inside_any(const assembly_class *c, const plan_use *p, const workspace *w);
+void inside_mask(const assembly_class *c, const plan_use *p, const workspace *w, double *rows, int n);
+/* The residual of a term at the points of a batch, zero outside of where it acts. */
+int inside_residual(const assembly_class *c, const plan_use *p, const pf_batch *b, const double *const *in,
+                    double *const *out, const workspace *w);
 /* Whether any term of the class takes part in this state. */
 int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s);
 int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,

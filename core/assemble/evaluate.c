@@ -134,6 +134,8 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
         }
     memset(w->jac, 0, used * sizeof(double));
     status = term_jacobian(t, p->use->how, b, in, jac, w->room);
+    if (!status && p->inside >= 0) /* blocks lie one after the other */
+        inside_mask(c, p, w, at, (int)(used / ld));
     if (within)
         reach_mask(within, at, used);
     if (!status && diagnose && find_nan_derivative(t, b, jac, &w->report))
@@ -187,7 +189,8 @@ int evaluate_any(const assembly *a, const assembly_class *c, const assembly_stat
 static pf_batch batch_of(const assembly_class *c, const assembly_state *s, int dim, workspace *w)
 {
     int on_pair = c->where == PF_PAIR, on_surface = c->where == PF_SURFACE;
-    int on_particle = c->where == PF_PARTICLE, on_body = c->where == PF_SOLID || on_surface || on_pair || on_particle;
+    int on_particle = c->where == PF_PARTICLE,
+        on_body = c->where == PF_SOLID || on_surface || on_pair || on_particle;
     uint32_t ld = (uint32_t)(c->n_q * (int)PF_LANES);
     pf_batch b = {
         .size = sizeof(pf_batch),
@@ -242,7 +245,7 @@ static int evaluate_term(const assembly *a, const assembly_class *c, const assem
     b->wall_distance = t->flags & PF_WALL_DISTANCE ? (double *)(c->wall + batch * c->n_q) : NULL;
     w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
     process_enter(w->report.plugin, t->name, "residual", cell);
-    status = t->residual(b, in, out);
+    status = inside_residual(c, p, b, in, out, w);
     if (masked)
         reach_mask(within, out[0], (size_t)(at - out[0]));
     if (!status && diagnose && find_nan_output(t, b, out, &w->report))
@@ -281,7 +284,7 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
     for (int u = 0; u < c->n_use; u++) {
         const plan_use *p = &c->use[u];
 
-        if (strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)))
+        if (strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)) && inside_any(c, p, w))
             TRY(evaluate_term(a, c, s, batch, p, with_matrix, diagnose, &b, w));
     }
     return 0;

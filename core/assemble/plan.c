@@ -32,10 +32,10 @@ static void mark_used(assembly_class *c, int order, enum basis_kind kind)
     c->any_laplace |= kind == BASIS_LAPLACE;
 }
 
-static int find_input(assembly_class *c, const space *s, const pf_slot *slot, const term_use *use, int k, error *err)
+/* data, key: where what is no field comes from, or NULL. */
+static int find_input(assembly_class *c, const space *s, const pf_slot *slot, const value *data, const double *key,
+                      error *err)
 {
-    const value *data = use->data[k];
-    const double *key = use->key[k];
     int f = term_slot_field(slot) ? space_find_field(s, slot->field) : -1;
     plan_input *in;
 
@@ -101,13 +101,19 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
     int dim = s->mesh->dim;
 
     p->use = use;
+    p->inside = -1;
+    if (use->inside) {
+        p->inside = find_input(c, s, &(pf_slot){.eval = PF_DATA, .shape = PF_SCALAR}, use->inside, NULL, err);
+        if (p->inside < 0)
+            return err->code;
+    }
     c->any_metric |= (t->flags & PF_METRIC) != 0;
     c->any_wall |= (t->flags & PF_WALL_DISTANCE) != 0;
     c->any_body_data |= use->plugin->d.min_minor >= 4;
     for (uint32_t k = 0; k < t->n_in; k++) {
         const pf_slot *slot = &t->in[k];
 
-        p->in[k] = find_input(c, s, slot, use, (int)k, err);
+        p->in[k] = find_input(c, s, slot, use->data[k], use->key[k], err);
         p->trial[k] = term_is_unknown(slot) ? find_basis(c, s, c->trial, &c->n_trial, slot, err) : -1;
         p->slope[k] = slot->eval == PF_DOT && c->where == PF_FLUID
                           ? find_basis(c, s, c->trial, &c->n_trial,

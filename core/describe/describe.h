@@ -130,6 +130,13 @@ typedef struct term_list {
     const case_block *block[DESCRIBE_MAX_TERMS];
 } term_list;
 
+/* A term that is left out as another one takes its place. */
+typedef struct replacement {
+    const term_plugin *plugin, *by_plugin;
+    const pf_term *term, *by;
+    int line; /* of the other one */
+} replacement;
+
 typedef struct description {
     case_file *c;           /* for messages, and for results{} */
     warning_list *warnings; /* what is doubtful but no error   */
@@ -140,8 +147,11 @@ typedef struct description {
     term_use use[DESCRIBE_MAX_TERMS];                /* terms that are on and give equations */
     const case_block *use_block[DESCRIBE_MAX_TERMS]; /* lines that switch them on */
     term_list law, shown;                            /* those that publish properties; that give what is shown */
-    field_list fields;                               /* their unknowns    */
-    int n_line, boundary_unread;                     /* some line is so wrong that its boundaries are unknown */
+    int n_started; /* of all these: the first so many have been made ready (pf_term.init) */
+    int n_replaced;
+    replacement replaced[DESCRIBE_MAX_TERMS];
+    field_list fields;           /* their unknowns    */
+    int n_line, boundary_unread; /* some line is so wrong that its boundaries are unknown */
     boundary_line *line;
     int n_body;
     body_spec *body;
@@ -160,8 +170,12 @@ typedef struct description {
 /* Reads all of a case.  What is wrong with it is collected (case_finish); an error is of a plugin or of memory. */
 int describe(description *d, case_file *c, registry *r, warning_list *w, error *err);
 /* What can be checked only with the mesh: names of boundaries in boundary{} and output{} (of a box: earlier),
- * facets without a condition, probes and lines.  ERR_CASE. */
-int describe_check(const description *d, const mesh *m, error *err);
+ * facets without a condition, probes and lines.  ERR_CASE.  If all is well, terms make ready for a run
+ * (pf_term.init); that ends with describe_end or with the description. */
+int describe_check(description *d, const mesh *m, error *err);
+void describe_end(description *d);
+/* "plugin.term is left out: ...", for i < n_replaced. */
+void describe_tell_replaced(const description *d, int i, char *to, size_t n);
 /* facet[n_facet]: 1 where the facet belongs to a boundary line. */
 void describe_facets(const description *d, const mesh *m, int line, uint8_t *facet);
 /* Planes of the boundaries with symmetry = true, each once. */
@@ -206,6 +220,15 @@ int describe_corners(reader *r, const char *key, const char *doc, double *low, d
 /* Adds a warning with file and line. */
 void describe_warn(description *d, const case_block *b, const char *key, const char *fmt, ...)
     __attribute__((format(printf, 4, 5)));
+/* Keys of a line about all its terms (instances.c). */
+int describe_instance(description *d, reader *own, const value **inside, const char **label, error *err);
+/* 0: another line has the term on, too, and says so. */
+int describe_check_twice(description *d, const reader *own, const term_use *u);
+/* Marks the terms that others replace; takes them out. */
+void describe_replace(description *d, registry *r);
+void describe_leave_out(description *d);
+/* pf_term.init of all terms.  ERR_CASE. */
+int describe_start(description *d, error *err);
 /* Parameters and data of a term that is on, from its line and from fluid{}. */
 int describe_term_keys(description *d, reader *own, reader *fluid, term_use *u, error *err);
 /* Keys on a line that belong to another term of its plugin, and in fluid{} that belong on a line. */

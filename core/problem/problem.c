@@ -166,6 +166,7 @@ int problem_create_coarse(problem *p, const problem *fine, error *err)
     p->n_thread = fine->n_thread;
     p->description = fine->description;
     p->description.memory = (arena){0};
+    p->description.n_started = 0;
     TRY(problem_halve(&p->description.mesh.box, &p->memory, err));
     TRY(problem_make_mesh(&p->description, NULL, &p->mesh, err));
     TRY(make_periodic(&p->description, &p->mesh, err));
