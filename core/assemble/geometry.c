@@ -82,8 +82,11 @@ static void points_of_pairs(const assembly *a, const assembly_class *c, int64_t 
     const v8 zero = {0};
 
     w->w[0] = zero + 1;
-    for (int k = 0; k <= ASSEMBLE_PAD; k++)
+    for (int k = 0; k <= ASSEMBLE_PAD; k++) {
         w->basis[0][0][k] = zero + (k == 0 ? 1.0 : k == 1 ? -1.0 : 0.0);
+        w->basis[0][FIRST_ROW][k] = zero + (k == 0);
+        w->basis[0][OTHER_ROW][k] = zero + (k == 1);
+    }
     for (int l = 0; l < 8; l++) {
         const near_pair *near = &c->pair[c->source[assemble_item(c, batch, l)]];
 
@@ -179,6 +182,10 @@ void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, 
 
     if (c->where == PF_PAIR) {
         points_of_pairs(a, c, batch, w);
+        return;
+    }
+    if (c->where == PF_PARTICLE) {
+        points_of_bodies(a, c, batch, w);
         return;
     }
     if (c->where == PF_SURFACE) {

@@ -30,6 +30,10 @@
  * .flags = ..., and so on: all other members of pf_term.  NAME_check, NAME_reach, NAME_jacobian, NAME_init and
  *                        NAME_done are declared (not static), to be named here and defined below, in #if PF_ONCE;
  *                        there the parameters are the members of struct NAME_params
+ * --- By hand, where speed matters: without it the complex numbers give the derivatives ---
+ * JACOBIAN(convection, IN(u, grad_u), PARAMS(DENSITY), BLOCKS(BLOCK(v, u), BLOCK(v, grad_u)))
+ *                        after the term, which has .jacobian = convection_jacobian; in its block dv_du[a][k][i] is
+ *                        d v_a / d u_k, dv_dgrad_u[a][k][l][i] d v_a / d grad_u_kl; all are zero before
  * --- In its block ---
  * LANES (i)              for all points of the batch, i
  * EACH (a)               for all directions of space, a
@@ -200,6 +204,8 @@
     int, NAME, , const int, PF_T_CHOICE, "1", DOC, .choice = PF_LIST(const char *const, __VA_ARGS__, NULL)
 
 /* --- Terms --- */
+/* The function the kernel calls has the block in it twice, for 2D and 3D, so that loops over directions are
+ * unrolled and the loop over lanes is one of vectors. */
 #define TERM(NAME, WHERE, INPUT, OUTPUT, KEYS, ...)                                                                \
     PF_TERM_ONCE(NAME, WHERE, PF_OPEN_##INPUT, PF_OPEN_##OUTPUT, PF_OPEN_##KEYS, __VA_ARGS__)                      \
     PF_POINT(NAME, PF_OPEN_##INPUT, PF_OPEN_##OUTPUT, PF_OPEN_##KEYS);                                             \
@@ -209,19 +215,28 @@
         int pf_status = PF_OK;                                                                                     \
                                                                                                                    \
         (void)in, (void)out, (void)pf_keys;                                                                        \
-        F(NAME##_at_point)                                                                                         \
-        (&pf_status, b PF_EACH(PF_IN_PASSED, NAME, PF_OPEN_##INPUT) PF_EACH(PF_OUT_PASSED, NAME, PF_OPEN_##OUTPUT) \
-                         PF_EACH(PF_KEY_PASSED, NAME, PF_OPEN_##KEYS));                                            \
+        if (b->dim == 2)                                                                                           \
+            PF_CALL(NAME, PF_OPEN_##INPUT, PF_OPEN_##OUTPUT, PF_OPEN_##KEYS);                                      \
+        else if (b->dim == 3)                                                                                      \
+            PF_CALL(NAME, PF_OPEN_##INPUT, PF_OPEN_##OUTPUT, PF_OPEN_##KEYS);                                      \
         return pf_status;                                                                                          \
     }                                                                                                              \
     PF_POINT(NAME, PF_OPEN_##INPUT, PF_OPEN_##OUTPUT, PF_OPEN_##KEYS)
 
 #define PF_POINT(NAME, INPUT, OUTPUT, KEYS)                                                                        \
-    static inline void F(NAME##_at_point)(                                                                         \
+    __attribute__((always_inline)) static inline void F(NAME##_at_point)(                                          \
         PF_UNUSED int *pf_status, PF_UNUSED const pf_batch *b PF_EACH(PF_IN_ARGUMENT, NAME, INPUT)                 \
                                       PF_EACH(PF_OUT_ARGUMENT, NAME, OUTPUT) PF_EACH(PF_KEY_ARGUMENT, NAME, KEYS))
+#define PF_CALL(NAME, INPUT, OUTPUT, KEYS)                                                                         \
+    F(NAME##_at_point)                                                                                             \
+    (&pf_status,                                                                                                   \
+     b PF_EACH(PF_IN_PASSED, NAME, INPUT) PF_EACH(PF_OUT_PASSED, NAME, OUTPUT) PF_EACH(PF_KEY_PASSED, NAME, KEYS))
 
 #define PF_TERM_ONCE(NAME, WHERE, INPUT, OUTPUT, KEYS, ...)                                                        \
+    enum {                                                                                                         \
+        PF_EACH(PF_IN_NUMBER, NAME, INPUT) PF_EACH(PF_OUT_NUMBER, NAME, OUTPUT) NAME##_n_in =                      \
+            0 PF_EACH(PF_PLUS_ONE, NAME, INPUT)                                                                    \
+    };                                                                                                             \
     struct NAME##_params {                                                                                         \
         PF_EACH(PF_KEY_MEMBER, NAME, KEYS)                                                                         \
         char none;                                                                                                 \
@@ -245,27 +260,79 @@
         .params_bytes = sizeof(struct NAME##_params),                                                              \
         __VA_ARGS__};
 
+/* A Jacobian by hand: the same way, always of real numbers. */
+#define JACOBIAN(NAME, INPUT, KEYS, PARTS)                                                                         \
+    PF_JACOBIAN_ONCE(NAME, INPUT, KEYS, PARTS)                                                                     \
+    PF_JACOBIAN_POINT(NAME, PF_OPEN_##INPUT, PF_OPEN_##KEYS, PF_OPEN_##PARTS)
+
+#define PF_JACOBIAN_ONCE(NAME, INPUT, KEYS, PARTS)                                                                 \
+    PF_JACOBIAN_POINT(NAME, PF_OPEN_##INPUT, PF_OPEN_##KEYS, PF_OPEN_##PARTS);                                     \
+    int NAME##_jacobian(const pf_batch *b, const double *const *in, double *const *jac)                            \
+    {                                                                                                              \
+        const struct NAME##_params *pf_keys = b->params;                                                           \
+        int pf_status = PF_OK;                                                                                     \
+                                                                                                                   \
+        (void)in, (void)pf_keys;                                                                                   \
+        if (b->dim == 2)                                                                                           \
+            PF_JACOBIAN_CALL(NAME, PF_OPEN_##INPUT, PF_OPEN_##KEYS, PF_OPEN_##PARTS);                              \
+        else if (b->dim == 3)                                                                                      \
+            PF_JACOBIAN_CALL(NAME, PF_OPEN_##INPUT, PF_OPEN_##KEYS, PF_OPEN_##PARTS);                              \
+        return pf_status;                                                                                          \
+    }
+#define PF_JACOBIAN_POINT(NAME, INPUT, KEYS, PARTS)                                                                \
+    __attribute__((always_inline)) PF_UNUSED static inline void F(NAME##_jacobian_at_point)(                       \
+        PF_UNUSED int *pf_status, PF_UNUSED const pf_batch *b PF_EACH(PF_REAL_ARGUMENT, NAME, INPUT) PF_EACH(      \
+                                      PF_BLOCK_ARGUMENT, NAME, PARTS) PF_EACH(PF_KEY_ARGUMENT, NAME, KEYS))
+#define PF_JACOBIAN_CALL(NAME, INPUT, KEYS, PARTS)                                                                 \
+    F(NAME##_jacobian_at_point)                                                                                    \
+    (&pf_status, b PF_EACH(PF_IN_PASSED, NAME, INPUT) PF_EACH(PF_BLOCK_PASSED, NAME, PARTS)                        \
+                     PF_EACH(PF_KEY_PASSED, NAME, KEYS))
+
+#define PF_BLOCK_SCALAR_SCALAR(NAME) double *restrict NAME
+#define PF_BLOCK_SCALAR_VECTOR(NAME) double(*restrict NAME)[b->ld]
+#define PF_BLOCK_VECTOR_SCALAR(NAME) double(*restrict NAME)[b->ld]
+#define PF_BLOCK_SCALAR_TENSOR(NAME) double(*restrict NAME)[b->dim][b->ld]
+#define PF_BLOCK_VECTOR_VECTOR(NAME) double(*restrict NAME)[b->dim][b->ld]
+#define PF_BLOCK_TENSOR_SCALAR(NAME) double(*restrict NAME)[b->dim][b->ld]
+#define PF_BLOCK_VECTOR_TENSOR(NAME) double(*restrict NAME)[b->dim][b->dim][b->ld]
+#define PF_BLOCK_TENSOR_VECTOR(NAME) double(*restrict NAME)[b->dim][b->dim][b->ld]
+#define PF_BLOCK_TENSOR_TENSOR(NAME) double(*restrict NAME)[b->dim][b->dim][b->dim][b->ld]
+
 #define PF_UNUSED           __attribute__((unused))
 #define PF_LOCAL            __attribute__((visibility("hidden")))
 #define PF_OPEN_IN(...)     __VA_ARGS__
 #define PF_OPEN_OUT(...)    __VA_ARGS__
 #define PF_OPEN_PARAMS(...) __VA_ARGS__
+#define PF_OPEN_BLOCKS(...) __VA_ARGS__
 
 /* For one entry A, number K of the list, of the term X: "u" becomes what PF_SLOT_u says, VALUE(u) what
  * PF_SLOT_VALUE(u) says, REAL(...) what PF_KEY_REAL(...) says. */
-#define PF_IN_ARGUMENT(X, K, A)  PF_APPLY(PF_IN_ARGUMENT_I, K, PF_SLOT_##A)
-#define PF_OUT_ARGUMENT(X, K, A) PF_APPLY(PF_OUT_ARGUMENT_I, K, PF_SLOT_##A)
-#define PF_IN_PASSED(X, K, A)    , (void *)in[K]
-#define PF_OUT_PASSED(X, K, A)   , (void *)out[K]
-#define PF_SLOT_ENTRY(X, K, A)   PF_APPLY(PF_SLOT_ENTRY_I, K, PF_SLOT_##A)
-#define PF_KEY_ARGUMENT(X, K, A) PF_APPLY(PF_KEY_ARGUMENT_I, K, PF_KEY_##A)
-#define PF_KEY_PASSED(X, K, A)   PF_APPLY(PF_KEY_PASSED_I, K, PF_KEY_##A)
-#define PF_KEY_MEMBER(X, K, A)   PF_APPLY(PF_KEY_MEMBER_I, K, PF_KEY_##A)
-#define PF_KEY_ENTRY(X, K, A)    PF_APPLY(PF_KEY_ENTRY_I, X, PF_KEY_##A)
-#define PF_APPLY(M, ...)         M(__VA_ARGS__)
+#define PF_IN_ARGUMENT(X, K, A)     PF_APPLY(PF_IN_ARGUMENT_I, K, PF_SLOT_##A)
+#define PF_OUT_ARGUMENT(X, K, A)    PF_APPLY(PF_OUT_ARGUMENT_I, K, PF_SLOT_##A)
+#define PF_IN_PASSED(X, K, A)       , (void *)in[K]
+#define PF_OUT_PASSED(X, K, A)      , (void *)out[K]
+#define PF_SLOT_ENTRY(X, K, A)      PF_APPLY(PF_SLOT_ENTRY_I, K, PF_SLOT_##A)
+#define PF_KEY_ARGUMENT(X, K, A)    PF_APPLY(PF_KEY_ARGUMENT_I, K, PF_KEY_##A)
+#define PF_KEY_PASSED(X, K, A)      PF_APPLY(PF_KEY_PASSED_I, K, PF_KEY_##A)
+#define PF_KEY_MEMBER(X, K, A)      PF_APPLY(PF_KEY_MEMBER_I, K, PF_KEY_##A)
+#define PF_KEY_ENTRY(X, K, A)       PF_APPLY(PF_KEY_ENTRY_I, X, PF_KEY_##A)
+#define PF_REAL_ARGUMENT(X, K, A)   PF_APPLY(PF_REAL_ARGUMENT_I, K, PF_SLOT_##A)
+#define PF_IN_NUMBER(X, K, A)       PF_APPLY(PF_NUMBER_I, X##_in_, K, PF_SLOT_##A)
+#define PF_OUT_NUMBER(X, K, A)      PF_APPLY(PF_NUMBER_I, X##_out_, K, PF_SLOT_##A)
+#define PF_PLUS_ONE(X, K, A)        +1
+#define PF_BLOCK_ARGUMENT(X, K, A)  PF_APPLY(PF_BLOCK_ARGUMENT_I, PF_PART_##A)
+#define PF_BLOCK_PASSED(X, K, A)    PF_APPLY(PF_BLOCK_PASSED_I, X, PF_PART_##A)
+#define PF_PART_BLOCK(O, I)         PF_HEAD(PF_SLOT_##O), PF_HEAD(PF_SLOT_##I)
+#define PF_HEAD(...)                PF_HEAD_I(__VA_ARGS__)
+#define PF_HEAD_I(SHAPE, NAME, ...) SHAPE, NAME
+#define PF_APPLY(M, ...)            M(__VA_ARGS__)
 
-#define PF_IN_ARGUMENT_I(K, SHAPE, NAME, ...)  , PF_UNUSED PF_ROWS_##SHAPE(const NUM, NAME)
-#define PF_OUT_ARGUMENT_I(K, SHAPE, NAME, ...) , PF_UNUSED PF_ROWS_##SHAPE(NUM, NAME)
+#define PF_IN_ARGUMENT_I(K, SHAPE, NAME, ...)        , PF_UNUSED PF_ROWS_##SHAPE(const NUM, NAME)
+#define PF_OUT_ARGUMENT_I(K, SHAPE, NAME, ...)       , PF_UNUSED PF_ROWS_##SHAPE(NUM, NAME)
+#define PF_REAL_ARGUMENT_I(K, SHAPE, NAME, ...)      , PF_UNUSED PF_ROWS_##SHAPE(const double, NAME)
+#define PF_NUMBER_I(PREFIX, K, SHAPE, NAME, ...)     PREFIX##NAME = K,
+#define PF_BLOCK_ARGUMENT_I(SHAPE_O, O, SHAPE_I, I)  , PF_BLOCK_##SHAPE_O##_##SHAPE_I(d##O##_d##I)
+#define PF_BLOCK_PASSED_I(X, SHAPE_O, O, SHAPE_I, I) , (void *)jac[X##_out_##O * X##_n_in + X##_in_##I]
 #define PF_SLOT_ENTRY_I(K, SHAPE, NAME, FIELD, EVAL, ...)                                                          \
     {.name = #NAME, .field = FIELD, .eval = EVAL, .shape = PF_##SHAPE, __VA_ARGS__},
 #define PF_KEY_ARGUMENT_I(K, MEMBER, NAME, LENGTH, PASSED, ...) , PF_UNUSED PASSED NAME
@@ -426,8 +493,10 @@ static inline double pf_real_min(double x, double y)
 #undef PF_TWIN
 #undef PF_TERM_ONCE
 #undef PF_PLUGIN_ONCE
+#undef PF_JACOBIAN_ONCE
 #define PF_ONCE 0
 #define PF_TWIN "plugflow/twin_complex.h" /* no third time */
 #define PF_TERM_ONCE(...)
 #define PF_PLUGIN_ONCE(...)
+#define PF_JACOBIAN_ONCE(...)
 #endif

@@ -45,6 +45,19 @@ static void a_power_law_channel_is_exact(void **state)
     assert_between(summary("c", "errors.u.l2"), 0, 1e-5);
 }
 
+/* By duals and by differences of the assembled residual. */
+static void a_term_in_cpp_is_written_once(void **state)
+{
+    (void)state;
+#ifndef HAVE_CPP
+    skip();
+#endif
+    assert_ran(test_of("drag"), 0, "rho = 2, mu = 3", "complex twin in 3D = residual", "0 failed");
+    assert_ran(test_of("functions_in_cpp"), 0, "d s / d T in 2D: analytic = complex step", "0 failed");
+    assert_ran(plugflow("jacobian tests/abi/kit/drag.lua --plugin \"$PLUGFLOW_BUILD/tests/abi/kit/drag.so\""), 0,
+               "ok     d R_u / d u");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -52,6 +65,7 @@ int main(void)
         cmocka_unit_test(a_law_of_viscosity_is_sound),
         cmocka_unit_test(the_slots_and_keys_are_those_of_the_source),
         cmocka_unit_test(a_power_law_channel_is_exact),
+        cmocka_unit_test(a_term_in_cpp_is_written_once),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
