@@ -13,8 +13,8 @@ static int F(drag)(const pf_batch *b, const NUM *const *in, NUM *const *out)
         NUM square = 0, rate;
 
         if (!(creal(k[i]) >= 0))
-            return b->host->fail(b, i, PF_FAIL, "inverse_permeability is %g; it must not be negative (0: free fluid)",
-                                 creal(k[i]));
+            return b->host->fail(
+                b, i, PF_FAIL, "inverse_permeability is %g; it must not be negative (0: free fluid)", creal(k[i]));
         for (uint32_t a = 0; a < b->dim; a++)
             square += u[a * LD + i] * u[a * LD + i];
         rate = m->viscosity * k[i] + m->density * m->forchheimer * sqrt(creal(k[i])) * sqrt(square + NO_ZERO);

@@ -36,8 +36,8 @@ static int drag_jacobian(const pf_batch *b, const double *const *in, double *con
         speed = sqrt(speed + NO_ZERO);
         for (uint32_t a = 0; a < b->dim; a++)
             for (uint32_t c = 0; c < b->dim; c++)
-                jac[0][(a * b->dim + c) * LD + i] =
-                    (a == c ? m->viscosity * k[i] + inertia * speed : 0) + inertia * u[a * LD + i] * u[c * LD + i] / speed;
+                jac[0][(a * b->dim + c) * LD + i] = (a == c ? m->viscosity * k[i] + inertia * speed : 0) +
+                                                    inertia * u[a * LD + i] * u[c * LD + i] / speed;
     }
     return PF_OK;
 }
@@ -47,10 +47,10 @@ static const pf_term drag = {
     .where = PF_FLUID,
     .flags = PF_CONTINUATION,
     .doc = "(\\mu K^{-1}+\\rho c_F K^{-1/2}|u|)\\,u\\cdot v",
-    .cite = "Brinkman 1949, Appl. Sci. Res. A 1:27; Joseph, Nield and Papanicolaou 1982, Water Resour. Res. 18:1049",
-    PF_IN({"u", "u", PF_VALUE, PF_VECTOR},
-          {"inverse_permeability", NULL, PF_DATA, PF_SCALAR, .unit = "1/m^2", .doc = "1/K; 0: free fluid", .min = 0,
-           .max = 1e30}),
+    .cite =
+        "Brinkman 1949, Appl. Sci. Res. A 1:27; Joseph, Nield and Papanicolaou 1982, Water Resour. Res. 18:1049",
+    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"inverse_permeability", NULL, PF_DATA, PF_SCALAR, .unit = "1/m^2",
+                                            .doc = "1/K; 0: free fluid", .min = 0, .max = 1e30}),
     PF_OUT({"v", "u", PF_VALUE, PF_VECTOR}),
     PF_PARAMS(struct medium, PF_DENSITY(struct medium), PF_VISCOSITY(struct medium),
               PF_NUMBER(struct medium, forchheimer, "1", "c_F of the inertial drag; about 0.5 of packed spheres",

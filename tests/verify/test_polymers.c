@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include <math.h>
+#include <stdio.h>
 
 static double error_of(const char *field, const char *arguments)
 {

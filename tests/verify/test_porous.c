@@ -23,9 +23,10 @@ static void profiles_of_a_channel_converge_with_third_order(void **state)
         double e[2], order;
 
         for (int i = 0; i < 2; i++) {
-            assert_ran(plugflow("run cases/porous_channel.lua --quiet --set n=%d --set shape=%s --set h=%s --out %s/o",
-                                16 << i, shape[k % 2], h[k / 2], scratch()),
-                       0, NULL);
+            assert_ran(
+                plugflow("run cases/porous_channel.lua --quiet --set n=%d --set shape=%s --set h=%s --out %s/o",
+                         16 << i, shape[k % 2], h[k / 2], scratch()),
+                0, NULL);
             e[i] = summary("o", "errors.u.l2") / summary("o", "errors.u.l2_exact");
         }
         order = log2(e[0] / e[1]);
