@@ -58,7 +58,7 @@ elseif kind == "decay" then -- two species, each by a law of its own
   time { step = dt, stop = 1 }
 else -- "closed": bodies fill a closed box
   mesh { box = {{-1, -1}, {1, 1}}, cells = {12, 12}, shape = shape }
-  fluid { diffusivity = 0.1, region = "outside" }
+  fluid { diffusivity = 0.1 }
   term "species" { without = {"advection"} }
   term "species.body" { release = 0.7 }
   particle { shape = disk { radius = 0.31 }, density = 1, at = {0.013, 0.021}, motion = "fixed" }
