@@ -31,7 +31,6 @@ fluid { density = 2, viscosity = mu, gravity = {0, -1} }
 term "continuity" {}
 term "level_set" { density_2 = 1, viscosity_2 = mu, thickness = e / n, speed = speed }
 particulate "sharp"
-term "level_set.tie" { speed = speed }
 
 boundary "*" { u = {0, 0} }
 

@@ -99,8 +99,8 @@ TERM(momentum, PF_FLUID, IN(phi, u_t, u, grad_u, p), OUT(v, grad_v),
 
 /* g (c/h + c0/dt) dphi ds;  d: what differs from the polynomial of the root */
 TERM(tie, PF_CUT, IN(SLOT(dphi, phi, DEFECT, SCALAR)), OUT(SLOT(ds, phi, DEFECT, SCALAR)),
-     PARAMS(SPEED, REAL(g, "1", "tie of phi, in c/h and c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)),
-     .flags = PF_LINEAR | PF_OPTIONAL, .doc = "g(c/h+c_0/\\Delta t)(\\phi-E\\phi)(s-Es)",
+     PARAMS(SPEED, REAL(g, "1", "tie of phi, in c/h and c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)), .flags = PF_LINEAR,
+     .doc = "g(c/h+c_0/\\Delta t)(\\phi-E\\phi)(s-Es)",
      .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)")
 {
     LANES (i)
