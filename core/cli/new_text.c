@@ -32,7 +32,7 @@ static void boundary(const new_plugin *n, const char *name, const char *velocity
     for (int i = 0; i < n->weak.n_used && value; i++) {
         const struct weak_used *u = &n->weak.used[i];
 
-        if (is_of_flow(u->name) || !u->has_test)
+        if (is_of_flow(u->name) || (!u->has_test && strcmp(u->name, "T") != 0))
             continue;
         text_add(t, u->rank ? "%s%s = {%s, 0%s}" : "%s%s = %s", between, u->name, value, in_3d ? ", 0" : "");
         between = ", ";
@@ -46,7 +46,7 @@ static void boundaries(const new_plugin *n, int flow, text *t)
     int other = 0;
 
     for (int i = 0; i < n->weak.n_used; i++)
-        other |= !is_of_flow(n->weak.used[i].name) && n->weak.used[i].has_test;
+        other |= !is_of_flow(n->weak.used[i].name);
     if (other) {
         boundary(n, "left", flow ? (open ? "1, 0" : "0, 0") : NULL, "0", t);
         boundary(n, "right", flow && !open ? "0, 0" : NULL, "1", t);
@@ -70,9 +70,19 @@ static void boundaries(const new_plugin *n, int flow, text *t)
     }
 }
 
+/* T has its equation elsewhere: of heat, which needs a flow. */
+static int is_only_read(const new_plugin *n)
+{
+    for (int i = 0; i < n->weak.n_used; i++)
+        if (strcmp(n->weak.used[i].name, "T") == 0 && !n->weak.used[i].has_test)
+            return 1;
+    return 0;
+}
+
 void new_case(const new_plugin *n, text *t)
 {
-    const int in_3d = n->weak.only_3d, flow = n->bodies || uses(n, "u") || uses(n, "p") || uses(n, "U");
+    const int in_3d = n->weak.only_3d,
+              flow = n->bodies || is_only_read(n) || uses(n, "u") || uses(n, "p") || uses(n, "U");
     const char *shape = in_3d ? "sphere" : "disk", *deep = in_3d ? ", 0.5" : "";
 
     text_add(t, "-- The smallest case in which %s acts.\ncase \"%s\"\n\n", n->name, n->name);
@@ -87,6 +97,11 @@ void new_case(const new_plugin *n, text *t)
         text_add(t, n->weak.fluid.n ? "fluid { %s }\n\n" : "\n", n->weak.fluid.s);
     if (flow)
         text_add(t, "term \"continuity\" {}\nterm \"momentum\" {}\n");
+    for (int i = 0; i < n->weak.n_used; i++)
+        if (strcmp(n->weak.used[i].name, "T") == 0 && !n->weak.used[i].has_test)
+            text_add(t, "term \"heat\" { conductivity = 1, heat_capacity = 1 }\n");
+        else if (!is_of_flow(n->weak.used[i].name) && !n->weak.used[i].has_test)
+            text_add(t, "-- add the term that is an equation of %s\n", n->weak.used[i].name);
     if (n->bodies)
         text_add(t, "particulate(\"sharp\")\n");
     text_add(t, "term \"%s\" { %s }\n\n", n->name, n->weak.keys.n ? n->weak.keys.s : "");
