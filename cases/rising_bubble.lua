@@ -5,8 +5,8 @@ case "Rising bubble"
 local n = param("n", 40, "cells per unit of length")
 local dt = param("dt", 0.02, "time step")
 local stop = param("stop", 3, "end")
-local e = param("thickness", 0.5, "of the interface, in cells")
-local speed = param("speed", 0.25, "at which the interface is restored")
+local e = param("thickness", 0.35, "of the interface, in cells")
+local speed = param("speed", 0.1, "at which the interface is restored")
 
 mesh  { box = {{0, 0}, {0.5, 2}}, cells = {n / 2, 2 * n} }
 fluid { density = 1000, viscosity = 10, gravity = {0, -0.98} }

@@ -57,6 +57,7 @@ static void print_solver(const linear *l)
 
 static int check(const problem *p, const linear *l, int json)
 {
+    char replaced[400];
     double matrix = 8.0 * (double)p->space.row[p->space.n_free] + 4.0 * (double)p->space.n_col;
 
     if (json) {
@@ -74,9 +75,16 @@ static int check(const problem *p, const linear *l, int json)
     for (int i = 0; i < p->mesh.n_name; i++)
         printf(" %s", p->mesh.name[i]);
     printf("\n  terms:");
-    for (int i = 0; i < p->description.n_use; i++)
-        printf(" %s.%s", p->description.use[i].plugin->d.name, p->description.use[i].term->name);
+    for (int i = 0; i < p->description.n_use; i++) {
+        const term_use *u = &p->description.use[i];
+
+        printf(u->label ? " %s.%s (%s)" : " %s.%s", u->plugin->d.name, u->term->name, u->label);
+    }
     printf("\n");
+    for (int i = 0; i < p->description.n_replaced; i++) {
+        describe_tell_replaced(&p->description, i, replaced, sizeof replaced);
+        printf("    %s\n", replaced);
+    }
     print_conditions(p);
     printf("  unknowns: %lld, of which %lld are free; matrix: %lld entries, %.3g MB\n", (long long)p->space.n_dof,
            (long long)p->space.n_free, (long long)p->space.row[p->space.n_free], matrix / 1e6);

@@ -178,6 +178,8 @@ static void check_shared(const description *d)
             memcpy(&a, (const char *)d->use[i].params + q->offset, sizeof a);
             for (int j = 0; j < i && !other; j++) {
                 other = describe_param(&d->use[j], q->name);
+                if (d->use[i].inside && d->use[j].inside) /* each has its own part of the domain */
+                    other = NULL;
                 if (!other || other->type != PF_T_REAL || !(other->flags & PF_SHARED))
                     continue;
                 memcpy(&b, (const char *)d->use[j].params + other->offset, sizeof b);

@@ -6,7 +6,7 @@
 
 #include <tgmath.h>
 
-#define FLAT 1e-3 /* e |grad phi| where the fluids count as unmixed */
+#define FLAT 1e-2 /* e |grad phi| where the fluids count as unmixed */
 
 struct level_set {
     double density, viscosity;     /* of the first fluid, kg/m^3, Pa s  */
