@@ -19,12 +19,14 @@
 #include "term/term.h"
 
 enum {
-    ASSEMBLE_MAX_INPUTS = 32,
+    ASSEMBLE_MAX_INPUTS = 64,
     ASSEMBLE_MAX_TESTS = 16,
     ASSEMBLE_MAX_USES = 32,
     ASSEMBLE_PAD = 3,
     SURFACE_POINTS = 16,
     ASSEMBLE_CELL_DEGREE = 5,
+    ASSEMBLE_MAX_LAWS = 8,
+    ASSEMBLE_MAX_CHAINS = 24,
     SLAB_ROUNDS = 2,            /* of slabs that run at once */
     ELEMENT_MOST_ENTRIES = 1024 /* of an element vector */
 };
@@ -35,6 +37,8 @@ typedef struct near_pair {
     int32_t particle;                /* the first of the two */
     double gap, h, at[3], normal[3]; /* normal: from the other to the first; at: in the middle of the gap */
     double size[2], density[2];      /* of each; of a wall infinite and 0 */
+    int32_t cell; /* that the middle of the gap lies in, -1: none; its reference coordinates there */
+    double ref[3];
 } near_pair;
 
 /* The bodies at one instant, as the assembly needs them: points and weights of the classes that follow them, and
@@ -78,21 +82,25 @@ typedef struct moving_frame {
     int (*at)(void *ctx, int64_t cell, const double *x, double *w, double *history);
 } moving_frame;
 
-/* One distinct quantity at the points: (field, eval), or data of one use. */
+/* One distinct quantity at the points: (field, eval), data of one use, or a property (properties.c). */
 typedef struct plan_input {
-    int field; /* -1: data */
+    int field; /* -1: data, a property */
     uint32_t eval;
     int n_comp;
     size_t at; /* offset in units of n_q v8 */
     const value *data;
-    v8 *table; /* data that is a function: [batch][n_comp][n_q] */
+    v8 *table;            /* data that is a function: [batch][n_comp][n_q] */
+    const term_use *law;  /* who publishes it */
+    const double *number; /* a property that nobody publishes: the number of a term */
+    int frozen;           /* PF_PAIR: a field on the mesh, at the last step in the middle of the gap */
 } plan_input;
 
-/* What of a basis function.  Laplacians are of trial functions only. */
-enum basis_kind { BASIS_VALUE, BASIS_GRAD, BASIS_LAPLACE };
+/* What of a basis function.  Laplacians are of trial functions only; so are the values in a bad cell of its own
+ * functions (PF_CUT, where BASIS_VALUE is what differs from the root). */
+enum basis_kind { BASIS_VALUE, BASIS_GRAD, BASIS_LAPLACE, BASIS_OWN, BASIS_KINDS };
 
-/* Rows of workspace.basis: value, d/dx, d/dy, d/dz, Laplacian. */
-enum { LAPLACE_ROW = 4, BASIS_ROWS = 5, TEST_ROWS = 4 };
+/* Rows of workspace.basis: value, d/dx, d/dy, d/dz, Laplacian, own value. */
+enum { LAPLACE_ROW = 4, OWN_ROW = 5, BASIS_ROWS = 6, TEST_ROWS = 4 };
 
 /* One distinct (field, kind) of test or trial functions. */
 typedef struct plan_basis {
@@ -109,7 +117,22 @@ typedef struct plan_use {
     int out[TERM_MAX_SLOTS];   /* index into test[]                             */
     int trial[TERM_MAX_SLOTS]; /* index into trial[], -1 where no unknown        */
     int slope[TERM_MAX_SLOTS]; /* of du/dt in the fluid: its gradient there, for the moving frame; else -1 */
+    int varies;                /* it takes a property that depends on unknowns */
 } plan_use;
+
+/* A publisher of properties, evaluated before the terms; its inputs and outputs are all among input[]. */
+typedef struct plan_law {
+    const term_use *use;
+    int in[TERM_MAX_SLOTS], out[TERM_MAX_SLOTS];
+} plan_law;
+
+/* d property / d unknown: [component of the property][component of the slot], by way of other properties, too. */
+typedef struct plan_chain {
+    int property, unknown; /* index into input[] */
+    const pf_slot *slot;   /* the unknown, as the publisher takes it */
+    int trial, slope;      /* as in plan_use */
+    size_t at;             /* in workspace.chain, units of n_q v8 */
+} plan_chain;
 
 /* Where the unknowns of an item stand in its element vector and matrix: carrier by carrier as in its group, and
  * there field by field and component by component as in the matrix, so that the columns of a carrier lie together.
@@ -165,13 +188,15 @@ typedef struct assembly_class {
     double (*dn_ref[6][3])[3];
     double (*d2n_ref[6][3])[FE_SECOND]; /* where Laplacians are asked for, else NULL; order 2 is the mapping's */
 
-    int n_use, n_input, n_test, n_trial;
+    int n_use, n_input, n_test, n_trial, n_law, n_chain;
     plan_use use[ASSEMBLE_MAX_USES];
+    plan_law law[ASSEMBLE_MAX_LAWS]; /* a law after those whose properties it takes */
+    plan_chain chain[ASSEMBLE_MAX_CHAINS];
     plan_input input[ASSEMBLE_MAX_INPUTS];
     plan_basis test[ASSEMBLE_MAX_TESTS], trial[ASSEMBLE_MAX_TESTS];
     size_t block[ASSEMBLE_MAX_TESTS][ASSEMBLE_MAX_TESTS]; /* offset of D block, SIZE_MAX: no coupling */
-    size_t in_size, test_size, block_size, out_size, jac_size, room_size, scratch_size;
-    int order_used[3], grad_used[3], laplace_used[3];
+    size_t in_size, test_size, block_size, out_size, jac_size, room_size, scratch_size, chain_size, product_size;
+    int order_used[3], grad_used[3], laplace_used[3], own_used[3];
     int any_laplace, any_metric;
     double data_time;
     int data_ready;

@@ -54,19 +54,19 @@ void element_vector(const assembly *a, const assembly_class *c, int field, works
 
 /* Test functions of one field and trial functions of another, by kind; -1: not used. */
 typedef struct basis_pair {
-    int test[BASIS_GRAD + 1], trial[BASIS_LAPLACE + 1];
+    int test[BASIS_GRAD + 1], trial[BASIS_KINDS];
 } basis_pair;
 
 /* Non-zero entries of D between component a of the rows and b of the columns: d[e][f]. */
 static int coefficients(const assembly_class *c, const basis_pair *p, int a, int b, int dim, const workspace *w,
                         const v8 *d[TEST_ROWS][BASIS_ROWS])
 {
-    static const int first_row[] = {0, 1, LAPLACE_ROW};
+    static const int first_row[] = {0, 1, LAPLACE_ROW, OWN_ROW};
     int any = 0;
 
     memset(d, 0, TEST_ROWS * sizeof d[0]);
     for (enum basis_kind ge = BASIS_VALUE; ge <= BASIS_GRAD; ge++)
-        for (enum basis_kind gf = BASIS_VALUE; gf <= BASIS_LAPLACE; gf++) {
+        for (enum basis_kind gf = BASIS_VALUE; gf < BASIS_KINDS; gf++) {
             int t = p->test[ge], r = p->trial[gf];
 
             if (t < 0 || r < 0 || c->block[t][r] == SIZE_MAX)
@@ -172,7 +172,7 @@ static void field_block(const assembly *as, const assembly_class *c, int row_fie
 
     for (enum basis_kind e = BASIS_VALUE; e <= BASIS_GRAD; e++)
         pair.test[e] = find_basis(c->test, c->n_test, row_field, e);
-    for (enum basis_kind e = BASIS_VALUE; e <= BASIS_LAPLACE; e++)
+    for (enum basis_kind e = BASIS_VALUE; e < BASIS_KINDS; e++)
         pair.trial[e] = find_basis(c->trial, c->n_trial, col_field, e);
     for (int a = 0; a < rf->n_comp; a++)
         for (int b = 0; b < cf->n_comp; b++) {

@@ -165,6 +165,8 @@ int describe_moves(const description *d);
 
 int describe_mesh(description *d, error *err);
 int describe_terms(description *d, registry *r, error *err);
+/* Who publishes the properties that terms take. */
+void describe_properties(description *d, registry *r);
 int describe_boundaries(description *d, error *err);
 int describe_bodies(description *d, error *err);
 void describe_settings(description *d);
@@ -190,6 +192,10 @@ void describe_warn(description *d, const case_block *b, const char *key, const c
     __attribute__((format(printf, 4, 5)));
 /* Parameters and data of a term that is on, from its line and from fluid{}. */
 int describe_term_keys(description *d, reader *own, reader *fluid, term_use *u, error *err);
+/* Says that a parameter which a term on this line has to have is not there. */
+void describe_missing(description *d, const case_block *own, const pf_param *q);
+/* Whether a term takes a property (properties.c). */
+int describe_takes(const pf_term *t, const char *property);
 /* Keys on a line that belong to another term of its plugin, and in fluid{} that belong on a line. */
 void describe_off_keys(description *d, reader *own, const term_plugin *plugin);
 void describe_unshared_keys(description *d, reader *fluid);

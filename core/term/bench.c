@@ -33,11 +33,30 @@ static double random_number(bench *k)
     return 2 * random_next(&k->random) - 1;
 }
 
+/* Anywhere; of a property where it makes sense. */
+static double random_value(bench *k, const pf_slot *s)
+{
+    double v = random_number(k), low = fmax(s->min, -2), high = fmin(s->max, 2);
+
+    if (s->eval != PF_PROPERTY || s->min >= s->max)
+        return v + (s->shape == PF_SCALAR ? 1.5 : 0);
+    if (low >= high)
+        low = s->min, high = s->max;
+    return low + (high - low) * (0.5 + 0.45 * v);
+}
+
 void bench_random_inputs(bench *k)
 {
     for (uint32_t i = 0; i < k->t->n_in; i++)
         for (int c = 0; c < bench_components(k, &k->t->in[i]) * BENCH_LD; c++)
-            k->in[i][c] = random_number(k) + (k->t->in[i].shape == PF_SCALAR ? 1.5 : 0);
+            k->in[i][c] = random_value(k, &k->t->in[i]);
+}
+
+void bench_random_state(bench *k)
+{
+    for (uint32_t i = 0; i < k->t->n_in; i++)
+        for (int c = 0; k->t->in[i].eval != PF_PROPERTY && c < bench_components(k, &k->t->in[i]) * BENCH_LD; c++)
+            k->in[i][c] = random_value(k, &k->t->in[i]);
 }
 
 void bench_put_param(bench *k, const pf_param *p, const double *v)

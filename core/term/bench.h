@@ -34,6 +34,8 @@ void bench_line(bench *k, int ok, const char *fmt, ...) __attribute__((format(pr
 int bench_components(const bench *k, const pf_slot *s);
 /* Other values in all inputs. */
 void bench_random_inputs(bench *k);
+/* In all but properties: a term is linear at given ones. */
+void bench_random_state(bench *k);
 /* Writes a parameter: one number, dim numbers of a vector. */
 void bench_put_param(bench *k, const pf_param *p, const double *v);
 /* Calls the residual; 1 if it went well, else the line is out. */

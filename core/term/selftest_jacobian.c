@@ -48,7 +48,7 @@ static int derive(bench *k, enum term_derivative how, double **jac, const char *
             memset(jac[o * t->n_in + i], 0,
                    (size_t)(bench_components(k, &t->out[o]) * bench_components(k, &t->in[i]) * BENCH_LD) *
                        sizeof(double));
-            given[o * t->n_in + i] = term_is_unknown(&t->in[i]) ? jac[o * t->n_in + i] : NULL;
+            given[o * t->n_in + i] = term_is_derived(&t->in[i]) ? jac[o * t->n_in + i] : NULL;
         }
     k->report.status = 0;
     process_enter(k->p->d.name, t->name, what, -1);
@@ -72,7 +72,7 @@ static int twin_derives(bench *k)
             size_t n = (size_t)(bench_components(k, &t->out[o]) * bench_components(k, &t->in[i]) * BENCH_LD);
             const double *a = k->truth[o * t->n_in + i], *b = k->jac[o * t->n_in + i];
 
-            if (term_is_unknown(&t->in[i]) && !(block_distance(a, b, 1, n) <= 1e-3 * block_norm(b, n) + 1e-6)) {
+            if (term_is_derived(&t->in[i]) && !(block_distance(a, b, 1, n) <= 1e-3 * block_norm(b, n) + 1e-6)) {
                 bench_line(
                     k, 0,
                     "%s  d %s / d %s in %dD: residual_c does not carry the derivative (norm %.6g, by differences "
@@ -91,7 +91,7 @@ static void test_jacobian(bench *k)
     int unknowns = 0;
 
     for (uint32_t i = 0; i < t->n_in; i++)
-        unknowns += term_is_unknown(&t->in[i]);
+        unknowns += term_is_derived(&t->in[i]);
     if (!unknowns || !derive(k, t->residual_c ? TERM_COMPLEX : TERM_FD, k->truth, how))
         return;
     if (t->residual_c && !twin_derives(k))
@@ -109,9 +109,9 @@ static void test_jacobian(bench *k)
         return;
     for (uint32_t o = 0; o < t->n_out; o++)
         for (uint32_t i = 0; i < t->n_in; i++)
-            if (term_is_unknown(&t->in[i]) && t->jacobian)
+            if (term_is_derived(&t->in[i]) && t->jacobian)
                 compare_block(k, o, i, how, t->residual_c ? EXACT : DIFFERENCES);
-            else if (term_is_unknown(&t->in[i]))
+            else if (term_is_derived(&t->in[i]))
                 bench_line(k, 1, "%s  d %s / d %s in %dD: by %s", t->name, t->out[o].name, t->in[i].name, k->dim,
                            how);
 }
@@ -125,7 +125,7 @@ static void test_linearity(bench *k)
         return;
     if (!derive(k, how, k->truth, "derivative"))
         return;
-    bench_random_inputs(k);
+    bench_random_state(k);
     if (!derive(k, how, k->jac, "derivative"))
         return;
     for (uint32_t j = 0; j < t->n_out * t->n_in; j++) {
