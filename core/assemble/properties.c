@@ -139,7 +139,7 @@ static int add_chains(const assembly_class *c, const plan_law *l, int dim, int d
     return 0;
 }
 
-static int evaluate_law(const assembly_class *c, const plan_law *l, int dim, int with_matrix, int diagnose,
+static int evaluate_law(const assembly_class *c, const plan_law *l, int64_t batch, int with_matrix, int diagnose,
                         pf_batch *b, workspace *w)
 {
     const pf_term *t = l->use->term;
@@ -154,12 +154,13 @@ static int evaluate_law(const assembly_class *c, const plan_law *l, int dim, int
         out[o] = (double *)(w->in + c->input[l->out[o]].at * nq);
     b->params = l->use->params;
     b->metric = t->flags & PF_METRIC ? (double *)w->metric : NULL;
+    b->wall_distance = t->flags & PF_WALL_DISTANCE ? (double *)(c->wall + batch * c->n_q) : NULL;
     w->report = (term_report){.plugin = l->use->plugin->d.name, .term = t->name};
     status = t->residual(b, in, out);
     for (uint32_t o = 0; o < t->n_out && !status && diagnose; o++)
         status = find_nan(b, l->use, &t->out[o], out[o], (size_t)c->input[l->out[o]].n_comp * b->ld, "is", w);
     if (!status && with_matrix)
-        status = add_chains(c, l, dim, diagnose, b, in, w);
+        status = add_chains(c, l, (int)b->dim, diagnose, b, in, w);
     if (status && !w->report.status)
         snprintf(w->report.text, sizeof w->report.text, "term %s.%s returned %d without saying why",
                  w->report.plugin, w->report.term, status);
@@ -168,7 +169,8 @@ static int evaluate_law(const assembly_class *c, const plan_law *l, int dim, int
     return status;
 }
 
-int properties_evaluate(const assembly_class *c, int dim, int with_matrix, int diagnose, pf_batch *b, workspace *w)
+int properties_evaluate(const assembly_class *c, int64_t batch, int with_matrix, int diagnose, pf_batch *b,
+                        workspace *w)
 {
     if (with_matrix && c->n_law)
         memset(w->chain, 0, c->chain_size * (size_t)c->n_q * sizeof(v8));
@@ -176,8 +178,8 @@ int properties_evaluate(const assembly_class *c, int dim, int with_matrix, int d
         const plan_law *l = &c->law[i];
         int status;
 
-        process_enter(l->use->plugin->d.name, l->use->term->name, "property", c->cell[0]);
-        status = evaluate_law(c, l, dim, with_matrix && c->chain_size, diagnose, b, w);
+        process_enter(l->use->plugin->d.name, l->use->term->name, "property", c->cell[c->batch[batch]]);
+        status = evaluate_law(c, l, batch, with_matrix && c->chain_size, diagnose, b, w);
         process_leave();
         if (status)
             return status;

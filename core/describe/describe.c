@@ -22,6 +22,7 @@ int describe(description *d, case_file *c, registry *r, warning_list *w, error *
     describe_check_formulation(d);
     describe_check_box(d);
     describe_check_terms(d);
+    describe_check_kept(d);
     return 0;
 }
 
@@ -35,6 +36,7 @@ int describe_has(const description *d, int where)
 
 void describe_destroy(description *d)
 {
+    describe_end(d);
     arena_free(&d->memory);
     memset(d, 0, sizeof *d);
 }

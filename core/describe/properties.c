@@ -7,14 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-int describe_takes(const pf_term *t, const char *property)
-{
-    for (uint32_t k = 0; k < t->n_in; k++)
-        if (t->in[k].eval == PF_PROPERTY && strcmp(t->in[k].field, property) == 0)
-            return 1;
-    return 0;
-}
-
 /* "momentum.viscous" */
 typedef struct full_name {
     char s[128];
@@ -99,7 +91,7 @@ static full_name taker(registry *r, const char *property)
 
         for (uint32_t k = 0; p->term && k < p->d.n_term; k++)
             if (term_kind(&p->term[k]) == TERM_EQUATION && p->term[k].where <= PF_FLUID &&
-                !(p->term[k].flags & PF_OPTIONAL) && describe_takes(&p->term[k], property))
+                !(p->term[k].flags & PF_OPTIONAL) && term_takes(&p->term[k], property))
                 return name_of(p, &p->term[k]);
     }
     return none;
@@ -118,7 +110,7 @@ static void check_taken(description *d, registry *r)
             for (int k = 0; k < count(d); k++) {
                 const term_use *u = use_of(d, k, &line);
 
-                taken |= describe_takes(u->term, property) && publisher(d, property, u->where) == &d->law.use[i];
+                taken |= term_takes(u->term, property) && publisher(d, property, u->where) == &d->law.use[i];
             }
             if (taken)
                 continue;
@@ -136,7 +128,7 @@ static void check_number(description *d, const term_use *u, const case_block *li
     const pf_param *q = &u->term->param[i];
     const term_use *law = publisher(d, q->name, u->where);
 
-    if (!describe_takes(u->term, q->name)) {
+    if (!term_takes(u->term, q->name)) {
         if (law && u->given >> i & 1)
             describe_warn(d, line, q->name, "%s takes \"%s\" as a number, %s publishes it: the same fluid has two",
                           name_of_use(u).s, q->name, name_of_use(law).s);
@@ -221,7 +213,7 @@ static void check_reduced(description *d)
         const pf_param *q = describe_param(u, "reduced_pressure");
         int on = 0;
 
-        if (!law || !q || q->type != PF_T_BOOL || !describe_takes(u->term, "density"))
+        if (!law || !q || q->type != PF_T_BOOL || !term_takes(u->term, "density"))
             continue;
         memcpy(&on, (const char *)u->params + q->offset, sizeof on);
         if (on) {
@@ -243,6 +235,9 @@ void describe_properties(description *d, registry *r)
     for (int i = 0; i < count(d); i++) {
         term_use *u = use_of(d, i, &line);
 
+        if (u->inside && term_kind(u->term) == TERM_PUBLISHES)
+            case_wrong(d->c, line, "inside", "%s publishes a property, which is everywhere: take inside out",
+                       name_of_use(u).s);
         for (uint32_t k = 0; k < u->term->n_param; k++)
             check_number(d, u, line, k);
         for (uint32_t k = 0; k < u->term->n_in; k++)

@@ -34,10 +34,11 @@ static void couple_fields(newton_system *s, const term_use *u)
 
     for (uint32_t o = 0; o < t->n_out; o++)
         for (uint32_t k = 0; k < t->n_in; k++) {
-            uint32_t *coupled = &s->coupled[space_find_field(s->space, t->out[o].field)];
+            uint32_t *coupled;
 
-            if (t->depends && !t->depends[o * t->n_in + k])
+            if (!term_slot_field(&t->out[o]) || (t->depends && !t->depends[o * t->n_in + k]))
                 continue;
+            coupled = &s->coupled[space_find_field(s->space, t->out[o].field)];
             if (term_is_unknown(&t->in[k]))
                 *coupled |= 1u << space_find_field(s->space, t->in[k].field);
             else if (u->law[k] && u->where != PF_PAIR)
@@ -80,28 +81,33 @@ void system_destroy(newton_system *s)
     memset(s, 0, sizeof *s);
 }
 
+/* What the assembly is told; s->work is the rate. */
+static assembly_state state_of(newton_system *s, const newton_time *time, const double *x)
+{
+    for (int64_t d = 0; d < s->space->n_dof; d++)
+        s->work[d] = time->history ? time->shift * x[d] + time->history[d] : 0;
+    return (assembly_state){.t = time->t,
+                            .dt = time->dt,
+                            .shift = time->shift,
+                            .x = x,
+                            .dot = s->work,
+                            .old = time->old ? time->old : x,
+                            .kept = time->kept,
+                            .fluid = time->fluid,
+                            .bodies = time->bodies,
+                            .frame = time->frame,
+                            .faded = time->faded,
+                            .only = time->only,
+                            .power = time->power};
+}
+
 int system_evaluate(newton_system *s, const newton_time *time, const double *x, int with_matrix, int diagnose,
                     error *err)
 {
-    const space *sp = s->space;
-    assembly_state st = {.t = time->t,
-                         .dt = time->dt,
-                         .shift = time->shift,
-                         .x = x,
-                         .dot = s->work,
-                         .old = time->old,
-                         .bodies = time->bodies,
-                         .frame = time->frame,
-                         .faded = time->faded,
-                         .only = time->only,
-                         .power = time->power};
     double start = clock_seconds();
+    assembly_state st = state_of(s, time, x);
     int status;
 
-    for (int64_t d = 0; d < sp->n_dof; d++)
-        s->work[d] = time->history ? time->shift * x[d] + time->history[d] : 0;
-    if (!st.old)
-        st.old = x;
     gauge_use(s, time->bodies);
     status = assembly_run(&s->assembly, &st, s->residual, with_matrix ? s->linear.value : NULL, diagnose, err);
     s->evaluations++;
@@ -123,6 +129,13 @@ int system_is_linear(const newton_system *s, const newton_time *time)
                       ((use->term->flags & PF_CONTINUATION) && time->faded == 1);
         }
     return linear;
+}
+
+int system_keep(newton_system *s, const newton_time *time, const double *x, double *kept, error *err)
+{
+    const assembly_state st = state_of(s, time, x);
+
+    return s->space->kept.n ? assembly_keep(&s->assembly, &st, kept, err) : 0;
 }
 
 int newton_residual(newton_system *s, const newton_time *time, const double *x, double *residual, error *err)

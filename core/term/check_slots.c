@@ -169,6 +169,10 @@ static const char *later(const pf_term *t, uint32_t *minor)
             return s->eval > PF_LAPLACE ? term_eval_name(s->eval) : "a slot";
         }
     }
+    if (t->replaces || t->init || t->done) {
+        *minor = 4;
+        return t->replaces ? "replaces" : "init and done";
+    }
     if (t->where == PF_PARTICLE || t->flags & (PF_WALL_DISTANCE | PF_ONLY_2D | PF_ONLY_3D | PF_LAST)) {
         *minor = 4;
         return t->where == PF_PARTICLE ? "PF_PARTICLE" : "a flag";
