@@ -111,6 +111,9 @@ int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, c
 void power_clear(assembly *a);
 /* The sums of all threads, in their order. */
 void power_sum(const assembly *a, assembly_power *power);
+/* What shown terms gave at the points of a batch; not 0: NaN, see w->report.  Room beforehand (show.c). */
+int show_batch(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch, workspace *w);
+int show_begin(const assembly *a, assembly_shown *to, error *err);
 /* Whether any term of the class takes part in this state. */
 int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s);
 int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,

@@ -70,6 +70,16 @@ static int find_basis(assembly_class *c, const space *s, plan_basis *list, int *
     return (*n)++;
 }
 
+/* An output that is shown has a place of its own among the test functions, and no field. */
+static int add_shown(assembly_class *c, const space *s, const pf_slot *slot, error *err)
+{
+    if (c->n_test == ASSEMBLE_MAX_TESTS)
+        return -error_set(err, ERR_PLUGIN, "more than %d quantities are shown of the same points",
+                          ASSEMBLE_MAX_TESTS);
+    c->test[c->n_test] = (plan_basis){.field = -1, .n_comp = term_components(slot->shape, s->mesh->dim)};
+    return c->n_test++;
+}
+
 static size_t max_size(size_t a, size_t b)
 {
     return a > b ? a : b;
@@ -93,25 +103,26 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
     const pf_term *t = use->term;
     plan_use *p = &c->use[c->n_use++];
     size_t out = 0, jac = 0;
-    int dim = s->mesh->dim;
+    int dim = s->mesh->dim, shows = term_kind(t) == TERM_SHOWS; /* nothing is solved for: no derivatives */
 
     p->use = use;
     c->any_metric |= (t->flags & PF_METRIC) != 0;
     for (uint32_t k = 0; k < t->n_in; k++) {
         const pf_slot *slot = &t->in[k];
+        const int derived = !shows && term_is_unknown(slot), slopes = derived && slot->eval == PF_DOT;
 
         p->in[k] = find_input(c, s, slot, use->data[k], err);
-        p->trial[k] = term_is_unknown(slot) ? find_basis(c, s, c->trial, &c->n_trial, slot, err) : -1;
-        p->slope[k] = slot->eval == PF_DOT && c->where == PF_FLUID
+        p->trial[k] = derived ? find_basis(c, s, c->trial, &c->n_trial, slot, err) : -1;
+        p->slope[k] = slopes && c->where == PF_FLUID
                           ? find_basis(c, s, c->trial, &c->n_trial,
                                        &(pf_slot){.field = slot->field, .shape = slot->shape, .eval = PF_GRAD}, err)
                           : -1;
-        if (p->in[k] < 0 || (term_is_unknown(slot) && p->trial[k] < 0) ||
-            (slot->eval == PF_DOT && c->where == PF_FLUID && p->slope[k] < 0))
+        if (p->in[k] < 0 || (derived && p->trial[k] < 0) || (slopes && c->where == PF_FLUID && p->slope[k] < 0))
             return err->code;
     }
     for (uint32_t o = 0; o < t->n_out; o++) {
-        p->out[o] = find_basis(c, s, c->test, &c->n_test, &t->out[o], err);
+        p->out[o] =
+            shows ? add_shown(c, s, &t->out[o], err) : find_basis(c, s, c->test, &c->n_test, &t->out[o], err);
         if (p->out[o] < 0)
             return err->code;
         out += (size_t)term_components(t->out[o].shape, dim);
@@ -225,7 +236,8 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
     for (int t = 0; t < c->n_test; t++) {
         c->test[t].at = c->test_size;
         c->test_size += (size_t)c->test[t].n_comp;
-        c->serial |= s->field[c->test[t].field].support == PF_ON_PROBLEM; /* one row for all cells */
+        c->serial |= c->test[t].field >= 0 &&
+                     s->field[c->test[t].field].support == PF_ON_PROBLEM; /* one row for all cells */
         for (int r = 0; r < c->n_trial; r++)
             if (c->block[t][r] == 0) {
                 c->block[t][r] = c->block_size;

@@ -3,6 +3,7 @@
  * Bodies in the results: particles.csv (a row a body and step) and, with every file of fields, their
  * outlines as particles_NNNNN.vtp. */
 #include "run/run.h"
+#include "run/showing.h"
 
 #include "io/vtp.h"
 #include "io/vtu.h"
@@ -18,18 +19,24 @@ static const char *const columns_3d[] = {
     "t",  "id", "x",  "y",         "z",         "q0",        "q1",          "q2", "q3",
     "u",  "v",  "w",  "omega_x",   "omega_y",   "omega_z",   "fx",          "fy", "fz",
     "tx", "ty", "tz", "contact_x", "contact_y", "contact_z", "active_nodes"};
-enum { COLUMNS_2D = 14, COLUMNS_3D = 25 };
+enum { COLUMNS_2D = 14, COLUMNS_3D = 25, MOST_SHOWN = 192 };
 
 int particles_plan(run *r, error *err)
 {
-    char path[4600];
+    const int flat = r->p->description.dim == 2, n = flat ? COLUMNS_2D : COLUMNS_3D;
+    const char *column[COLUMNS_3D + MOST_SHOWN], *unit[MOST_SHOWN];
+    char path[4600], name[MOST_SHOWN][96];
+    int n_shown;
 
     if (r->p->bodies.n == 0)
         return 0;
-    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D, err);
+    memcpy(column, flat ? columns_2d : columns_3d, (size_t)n * sizeof *column);
+    n_shown = showing_body_columns(r, MOST_SHOWN, name, unit);
+    for (int i = 0; i < n_shown; i++)
+        column[n + i] = name[i];
+    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + n + n_shown, err);
     snprintf(path, sizeof path, "%s/particles.csv", r->dir);
-    return r->p->description.dim == 2 ? table_create(&r->particles, path, columns_2d, COLUMNS_2D, err)
-                                      : table_create(&r->particles, path, columns_3d, COLUMNS_3D, err);
+    return table_create(&r->particles, path, column, n + n_shown, err);
 }
 
 /* How many covered cells of all bodies share each node. */
@@ -106,7 +113,8 @@ int particles_write(run *r, double t, error *err)
             *at++ = r->before_steps ? NAN : w >= 0 ? -force[w + i] : 0;
         for (int i = 0; i < dim; i++)
             *at++ = r->before_steps ? NAN : u >= 0 ? -contact[u + i] : 0;
-        *at = round(active[k]);
+        *at++ = round(active[k]);
+        TRY(showing_body_row(r, k, at, err));
         TRY(table_add(&r->particles, row, err));
     }
     return 0;

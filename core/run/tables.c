@@ -2,6 +2,7 @@
  *
  * forces.csv and probes.csv: a row a step, or one wherever they are due. */
 #include "run/run.h"
+#include "run/showing.h"
 
 #include "base/list.h"
 
@@ -134,6 +135,8 @@ static int plan_probes(run *r, columns *c, text *units, error *err)
 {
     const problem *p = r->p;
     const output_spec *o = &p->description.output;
+    const field_spec *shown;
+    const int n_shown = showing_fields(r, &shown);
     char(*name)[96] = more(c, 1, "s");
 
     if (name)
@@ -148,6 +151,11 @@ static int plan_probes(run *r, columns *c, text *units, error *err)
                        : NULL;
             if (name)
                 output_components(&p->space.field[f], prefix, name);
+        }
+        for (int f = 0; f < n_shown; f++) {
+            name = more(c, shown[f].n_comp, shown[f].unit);
+            if (name)
+                output_components(&shown[f], prefix, name);
         }
         name = p->bodies.n ? more(c, 1, "1") : NULL;
         if (name)
@@ -248,8 +256,11 @@ static int add_probes(run *r, double t, double *row, error *err)
 {
     const problem *p = r->p;
     const output_spec *o = &p->description.output;
+    const field_spec *shown;
+    const int n_shown = showing_fields(r, &shown);
     double *at = row;
 
+    TRY(showing_take(r, err));
     *at++ = t;
     for (int i = 0; i < o->n_probe; i++) {
         const body_place *in = inside_place(r, o->probe[i].x);
@@ -262,6 +273,8 @@ static int add_probes(run *r, double t, double *row, error *err)
                 inside_value(r, in, f, o->probe[i].x, at);
             at += p->space.field[f].n_comp;
         }
+        for (int f = 0; f < n_shown; at += shown[f++].n_comp)
+            showing_value(r, f, &r->probe_at[i], in, at);
         if (p->bodies.n)
             *at++ = in ? in->body : -1;
     }
@@ -292,6 +305,8 @@ int tables_add(run *r, double t, error *err)
         status = add_forces(r, t, row, err);
     if (!status && o->n_probe)
         status = add_probes(r, t, row, err);
+    if (!status)
+        status = showing_row(r, t, err);
     free(row);
     TRY(status);
     if (r->before_steps)
