@@ -32,9 +32,10 @@ enum {
 /* Two bodies near each other, or a body and a wall. */
 typedef struct near_pair {
     int64_t group;                   /* of their carriers (space.h)                        */
-    int32_t particle;                /* the first of the two */
+    int32_t particle, other;         /* the first of the two; the other, -1: a wall */
     double gap, h, at[3], normal[3]; /* normal: from the other to the first; at: in the middle of the gap */
     double size[2], density[2];      /* of each; of a wall infinite and 0 */
+    double other_centre[3];          /* of the image that is near; of a wall 0 */
 } near_pair;
 
 /* The bodies at one instant, as the assembly needs them: points and weights of the classes that follow them, and
@@ -48,6 +49,7 @@ typedef struct body_points {
     const uint8_t *off;       /* [n_cell] not 0: a body is near, and may cover a part of it */
     int64_t n_pair;
     const near_pair *pair;
+    double pair_size, pair_h; /* largest size of a body and of a cell, m: what the reach of terms goes by */
     int64_t n_solid, n_cut; /* attached pairs (space.h) covered; cells cut by a surface  */
     const int32_t *solid, *cut;
     const double *solid_weight, *cut_weight; /* inside of the body; outside of all bodies */
@@ -56,6 +58,7 @@ typedef struct body_points {
     const double (*surface_ref)[3],
         (*surface_normal)[3];     /* of each point: reference coordinates; out of the fluid */
     const double *surface_weight; /* ds; 0 for points that fill up                         */
+    const double *curvature;      /* of each point, see pf_batch; NULL: no term may read it */
     int64_t n_tie;                /* cells with too little fluid, tied to their roots       */
     const int64_t *tie;           /* group of the carriers of both                          */
     const int32_t *tie_cell;
@@ -78,21 +81,23 @@ typedef struct moving_frame {
     int (*at)(void *ctx, int64_t cell, const double *x, double *w, double *history);
 } moving_frame;
 
-/* One distinct quantity at the points: (field, eval), or data of one use. */
+/* One distinct quantity at the points: (field, eval), data of one use, or a key of the bodies. */
 typedef struct plan_input {
-    int field; /* -1: data */
+    int field; /* -1: data, a key */
     uint32_t eval;
     int n_comp;
     size_t at; /* offset in units of n_q v8 */
     const value *data;
+    const double *key; /* [n_body][n_comp] */
     v8 *table; /* data that is a function: [batch][n_comp][n_q] */
 } plan_input;
 
-/* What of a basis function.  Laplacians are of trial functions only. */
-enum basis_kind { BASIS_VALUE, BASIS_GRAD, BASIS_LAPLACE };
+/* What of a basis function.  Laplacians are of trial functions only.  On pairs the value is what differs
+ * (PF_DEFECT), and there are the values of the first body and of the other alone. */
+enum basis_kind { BASIS_VALUE, BASIS_GRAD, BASIS_LAPLACE, BASIS_FIRST, BASIS_OTHER, BASIS_KINDS };
 
-/* Rows of workspace.basis: value, d/dx, d/dy, d/dz, Laplacian. */
-enum { LAPLACE_ROW = 4, BASIS_ROWS = 5, TEST_ROWS = 4 };
+/* Rows of workspace.basis: value, d/dx, d/dy, d/dz, Laplacian; on pairs what differs, first, other. */
+enum { FIRST_ROW = 1, OTHER_ROW = 2, LAPLACE_ROW = 4, BASIS_ROWS = 5, TEST_ROWS = 4 };
 
 /* One distinct (field, kind) of test or trial functions. */
 typedef struct plan_basis {
@@ -105,6 +110,7 @@ typedef struct plan_basis {
 typedef struct plan_use {
     term_use *use;
     int number;                /* of the use in all classes, see assembly.use     */
+    int inside;                /* index into input[]: acts where that is above 0; -1: everywhere */
     int in[TERM_MAX_SLOTS];    /* index into input[]                            */
     int out[TERM_MAX_SLOTS];   /* index into test[]                             */
     int trial[TERM_MAX_SLOTS]; /* index into trial[], -1 where no unknown        */
@@ -173,6 +179,10 @@ typedef struct assembly_class {
     size_t in_size, test_size, block_size, out_size, jac_size, room_size, scratch_size;
     int order_used[3], grad_used[3], laplace_used[3];
     int any_laplace, any_metric;
+    int any_body_data, any_wall; /* some term may read what 1.4 has of bodies; has PF_WALL_DISTANCE: */
+    v8 *wall;                    /* [n_batch][n_q] distances from walls, once the items are known */
+    int wall_ready;
+    arena wall_memory; /* of those of cells and facets */
     double data_time;
     int data_ready;
     int frame_stamp;   /* of the moving frame whose values these are: */
@@ -194,6 +204,7 @@ typedef struct assembly {
     term_use **use;
     const body_points *bodies;   /* of the last evaluation; NULL: none */
     int bodies_stamp;            /* of those that the classes have their items from */
+    const struct wall *walls;    /* where wall distances are from; NULL: there are none */
     int clears;                  /* batches of the first class zero the rows that they come to first */
     uint8_t *none_idle;          /* [n_dof] zero */
     const uint8_t *idle;         /* [n_dof] of the last evaluation */
@@ -256,6 +267,8 @@ typedef struct assembly_shown {
 typedef struct assembly_state {
     double t, dt, shift;
     const double *x, *dot, *old;
+    const double (*fluid)[6];  /* [n_body] force (3) and torque (3; 2D: the first) of the fluid at the end of the last
+                                * step; NULL: 0 */
     const body_points *bodies; /* NULL: there are none */
     const moving_frame *frame; /* NULL: all history is at a place */
     double faded;              /* part of the terms with PF_CONTINUATION that is left out: 0 none, 1 all of them */

@@ -19,6 +19,7 @@ static int run_batch(const assembly *a, const assembly_class *c, const assembly_
         return 0;
 
     geometry_points(a, c, batch, w);
+    body_data_take(a, c, s, batch, w);
     inputs_values(a, c, s, batch, w);
     if (evaluate_terms(a, c, s, batch, value != NULL, diagnose, w)) {
         w->failed_batch = batch;
@@ -100,6 +101,7 @@ static int run_class(assembly *a, assembly_class *c, const assembly_state *s, do
                      int diagnose, error *err)
 {
     TRY(inputs_functions(a, c, &a->work[0], s->t, err));
+    TRY(walls_update(a, c, err));
     TRY(history_update(a, c, s->frame, err));
     TRY(shares_clear(a, c, value != NULL, err));
     for (int round = 0; round < SLAB_ROUNDS; round++)
@@ -166,6 +168,7 @@ void assembly_destroy(assembly *a)
     for (int i = 0; i < a->n_class; i++) {
         arena_free(&a->class_[i].item_memory);
         arena_free(&a->class_[i].frame_memory);
+        arena_free(&a->class_[i].wall_memory);
     }
     arena_free(&a->share_memory);
     arena_free(&a->memory);

@@ -6,12 +6,26 @@
 
 #include "assemble/assemble.h"
 
+/* What terms of interface 1.4 may read of bodies, as in pf_batch. */
+typedef struct body_data {
+    v8 *centre, *axes, *volume, *mass, *inertia;
+    v8 *fluid_force, *fluid_torque, *other_centre, *other_axes, *other_arm, *curvature;
+    int32_t *other_id;
+    struct {
+        const struct assembly_class *class_;
+        int stamp;
+        int32_t id;
+        double centre[3];
+    } last[PF_LANES]; /* whose data stand there, of a class with many points */
+} body_data;
+
 typedef struct workspace {
     v8 *x_node; /* [dim][nodes]                                            */
     v8 *gap, *size[2], *other_density;
     v8 *arm, *density;      /* [dim][n_q], [n_q] */
     int32_t *id;            /* [n_q][8] */
     v8 *w, *x, *normal, *h; /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
+    body_data body;
     v8 *metric;             /* [dim*dim][n_q], see pf_batch; NULL: no class has it */
     /* Where the class has a tensor rule: dxi/dx [dim*dim][n_q], of a batch of boxes only its diagonal, the same at
      * all points, in scale; room for numbers at points by reference derivatives, and of the stages. */
@@ -20,7 +34,7 @@ typedef struct workspace {
     v8 *basis[3][BASIS_ROWS]; /* [order][value, d/dx, d/dy, d/dz, Laplacian]: [i][n_q], i padded; NULL: not used, or
                                the class has a tensor rule */
     v8 *dof;                  /* nodal values of one field                               */
-    v8 *rate;                 /* [3 + 9][n_q] room: a field and its gradient */
+    v8 *rate;                 /* room: a field and its gradient */
     const v8 *frame;          /* w and history of this batch, see assembly_class; NULL: none */
     v8 *in, *test, *block, *out, *jac, *room;
     uint8_t *filled;     /* [block_size] 1: some term has that entry of D; others have no value */
@@ -90,6 +104,19 @@ v8 metric_of(int dim, int simplex, v8 inv[3][3], int a, int b);
 void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
 /* On pieces of surface (surface.c). */
 void geometry_surface(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
+/* The one point of bodies (PF_PARTICLE) and of pairs (body_data.c, geometry.c). */
+void points_of_bodies(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
+/* What a term may read of bodies beside arm, density and number: room for it; of a batch; where it stands. */
+int body_data_room(size_t n_q, size_t dim, workspace *w, error *err);
+void body_data_take(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                    workspace *w);
+void body_data_show(const assembly_class *c, const workspace *w, pf_batch *b);
+/* Which lanes are pairs within a term's reach: in[8], 1 or 0; how many are (reach.c). */
+int reach_of(const assembly *a, const assembly_class *c, const term_use *use, const workspace *w, int *in);
+/* Zeroes lanes that are not in, of n numbers. */
+void reach_mask(const int *in, double *v, size_t n);
+/* Distances from walls at all points of a class; once for its items (walls.c). */
+int walls_update(const assembly *a, assembly_class *c, error *err);
 /* Places of the nodes of the cells of a batch, to w->x_node. */
 void geometry_nodes(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
 /* Of a batch of boxes, in each direction. */
@@ -114,6 +141,12 @@ void power_sum(const assembly *a, assembly_power *power);
 /* What shown terms gave at the points of a batch; not 0: NaN, see w->report.  Room beforehand (show.c). */
 int show_batch(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch, workspace *w);
 int show_begin(const assembly *a, assembly_shown *to, error *err);
+/* inside.c.  Whether a term acts at any point of the batch; of n rows [ld] what is left where it does not: zero. */
+int inside_any(const assembly_class *c, const plan_use *p, const workspace *w);
+void inside_mask(const assembly_class *c, const plan_use *p, const workspace *w, double *rows, int n);
+/* The residual of a term at the points of a batch, zero outside of where it acts. */
+int inside_residual(const assembly_class *c, const plan_use *p, const pf_batch *b, const double *const *in,
+                    double *const *out, const workspace *w);
 /* Whether any term of the class takes part in this state. */
 int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s);
 int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
@@ -136,6 +169,21 @@ static inline int64_t assemble_item(const assembly_class *c, int64_t batch, int 
     int64_t first = c->batch[batch], last = c->batch[batch + 1] - 1, i = first + lane;
 
     return i < last ? i : last;
+}
+
+/* First row of a kind in workspace.basis; what a term calls it. */
+static inline int assemble_row(enum basis_kind kind)
+{
+    static const int row[BASIS_KINDS] = {0, 1, LAPLACE_ROW, FIRST_ROW, OTHER_ROW};
+
+    return row[kind];
+}
+
+static inline uint32_t assemble_eval(const assembly_class *c, enum basis_kind kind)
+{
+    static const uint32_t eval[BASIS_KINDS] = {PF_VALUE, PF_GRAD, PF_LAPLACE, PF_VALUE, PF_OTHER};
+
+    return kind == BASIS_VALUE && c->where == PF_PAIR ? PF_DEFECT : eval[kind];
 }
 
 static inline int assemble_padded(int n)

@@ -119,7 +119,7 @@ static int find_nan_derivative(const pf_term *t, const pf_batch *b, double *cons
 }
 
 static int add_jacobian(const assembly_class *c, const assembly_state *s, const plan_use *p, const pf_batch *b,
-                        const double *const *in, int dim, int diagnose, workspace *w)
+                        const double *const *in, const int *within, int dim, int diagnose, workspace *w)
 {
     const pf_term *t = p->use->term;
     double *jac[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
@@ -134,6 +134,10 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
         }
     memset(w->jac, 0, used * sizeof(double));
     status = term_jacobian(t, p->use->how, b, in, jac, w->room);
+    if (!status && p->inside >= 0) /* blocks lie one after the other */
+        inside_mask(c, p, w, at, (int)(used / ld));
+    if (within)
+        reach_mask(within, at, used);
     if (!status && diagnose && find_nan_derivative(t, b, jac, &w->report))
         return PF_FAIL;
     for (uint32_t o = 0; o < t->n_out && !status; o++)
@@ -165,7 +169,7 @@ static uint32_t kinds(const assembly *a, const plan_use *p)
     for (uint32_t i = 0; (t->where == PF_SOLID || t->where == PF_SURFACE) && i < t->n_in + t->n_out; i++) {
         const pf_slot *s = i < t->n_in ? &t->in[i] : &t->out[i - t->n_in];
 
-        if (s->eval != PF_DATA && a->space->field[space_find_field(a->space, s->field)].order > 0)
+        if (term_slot_field(s) && a->space->field[space_find_field(a->space, s->field)].order > 0)
             k |= ASSEMBLE_COUPLING;
     }
     k |= term_stores(t, NULL) ? ASSEMBLE_INERTIA : 0;
@@ -185,10 +189,10 @@ int evaluate_any(const assembly *a, const assembly_class *c, const assembly_stat
 static pf_batch batch_of(const assembly_class *c, const assembly_state *s, int dim, workspace *w)
 {
     int on_pair = c->where == PF_PAIR, on_surface = c->where == PF_SURFACE;
-    int on_body = c->where == PF_SOLID || on_surface || on_pair;
+    int on_particle = c->where == PF_PARTICLE,
+        on_body = c->where == PF_SOLID || on_surface || on_pair || on_particle;
     uint32_t ld = (uint32_t)(c->n_q * (int)PF_LANES);
-
-    return (pf_batch){
+    pf_batch b = {
         .size = sizeof(pf_batch),
         .dim = (uint32_t)dim,
         .n = ld,
@@ -199,7 +203,7 @@ static pf_batch batch_of(const assembly_class *c, const assembly_state *s, int d
         .x = (double *)w->x,
         .normal = c->where == PF_FACET || on_surface || on_pair ? (double *)w->normal : NULL,
         .h = (double *)w->h,
-        .arm = c->where == PF_SOLID || on_surface ? (double *)w->arm : NULL,
+        .arm = on_body && (!on_pair || c->any_body_data) ? (double *)w->arm : NULL,
         .density = on_body ? (double *)w->density : NULL,
         .id = on_body ? w->id : NULL,
         .gap = on_pair ? (double *)w->gap : NULL,
@@ -210,18 +214,25 @@ static pf_batch batch_of(const assembly_class *c, const assembly_state *s, int d
         .kernel = &w->report,
         .host = &term_host,
     };
+
+    body_data_show(c, w, &b);
+    return b;
 }
 
 /* Residual and, if asked for, derivatives of one term, added to what the others gave. */
-static int evaluate_term(const assembly_class *c, const assembly_state *s, int64_t batch, const plan_use *p,
-                         int dim, int with_matrix, int diagnose, pf_batch *b, workspace *w)
+static int evaluate_term(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                         const plan_use *p, int with_matrix, int diagnose, pf_batch *b, workspace *w)
 {
     const pf_term *t = p->use->term;
     size_t nq = (size_t)c->n_q, ld = nq * PF_LANES;
     const double *in[TERM_MAX_SLOTS];
     double *out[TERM_MAX_SLOTS], *at = (double *)w->out;
     int64_t cell = c->cell[c->batch[batch]];
-    int status;
+    int status, dim = (int)b->dim, within[PF_LANES], n_within = reach_of(a, c, p->use, w, within);
+    int masked = n_within < (int)PF_LANES;
+
+    if (n_within == 0)
+        return 0;
 
     for (uint32_t k = 0; k < t->n_in; k++)
         in[k] = (double *)(w->in + c->input[p->in[k]].at * nq);
@@ -231,9 +242,12 @@ static int evaluate_term(const assembly_class *c, const assembly_state *s, int64
     }
     b->params = p->use->params;
     b->metric = t->flags & PF_METRIC ? (double *)w->metric : NULL;
+    b->wall_distance = t->flags & PF_WALL_DISTANCE ? (double *)(c->wall + batch * c->n_q) : NULL;
     w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
     process_enter(w->report.plugin, t->name, "residual", cell);
-    status = t->residual(b, in, out);
+    status = inside_residual(c, p, b, in, out, w);
+    if (masked)
+        reach_mask(within, out[0], (size_t)(at - out[0]));
     if (!status && diagnose && find_nan_output(t, b, out, &w->report))
         status = PF_FAIL;
     if (!status) {
@@ -244,7 +258,7 @@ static int evaluate_term(const assembly_class *c, const assembly_state *s, int64
     if (!status) {
         process_enter(w->report.plugin, t->name, "Jacobian", cell);
         if (with_matrix)
-            status = add_jacobian(c, s, p, b, in, dim, diagnose, w);
+            status = add_jacobian(c, s, p, b, in, masked ? within : NULL, dim, diagnose, w);
     }
     process_leave();
     if (status && !w->report.status)
@@ -270,8 +284,8 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
     for (int u = 0; u < c->n_use; u++) {
         const plan_use *p = &c->use[u];
 
-        if (strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)))
-            TRY(evaluate_term(c, s, batch, p, dim, with_matrix, diagnose, &b, w));
+        if (strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)) && inside_any(c, p, w))
+            TRY(evaluate_term(a, c, s, batch, p, with_matrix, diagnose, &b, w));
     }
     return 0;
 }

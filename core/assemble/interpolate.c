@@ -43,7 +43,12 @@ static void interpolate_product(const assembly_class *c, const field_spec *f, ui
 void interpolate(const assembly_class *c, const field_spec *f, int dim, uint32_t eval, workspace *w, v8 *to)
 {
     int grad = eval == PF_GRAD, div = eval == PF_DIV, nq = c->n_q, n = c->n_basis[f->order];
-    int first = eval == PF_LAPLACE ? LAPLACE_ROW : grad || div ? 1 : 0, last = grad || div ? dim : first;
+    int alone = c->where == PF_PAIR && eval != PF_DEFECT;
+    int first = eval == PF_LAPLACE ? LAPLACE_ROW
+                : alone            ? (eval == PF_OTHER ? OTHER_ROW : FIRST_ROW)
+                : grad || div      ? 1
+                                   : 0,
+        last = grad || div ? dim : first;
 
     if (c->tensor) {
         interpolate_product(c, f, eval, w, to);

@@ -9,8 +9,10 @@
 
 enum { FACET_DEGREE = 5 };
 
-static enum basis_kind kind_of(const pf_slot *slot)
+static enum basis_kind kind_of(const assembly_class *c, const pf_slot *slot)
 {
+    if (c->where == PF_PAIR && slot->eval != PF_DEFECT)
+        return slot->eval == PF_OTHER ? BASIS_OTHER : BASIS_FIRST;
     switch (slot->eval) {
     case PF_GRAD:
     case PF_DIV:
@@ -30,22 +32,25 @@ static void mark_used(assembly_class *c, int order, enum basis_kind kind)
     c->any_laplace |= kind == BASIS_LAPLACE;
 }
 
-static int find_input(assembly_class *c, const space *s, const pf_slot *slot, const value *data, error *err)
+/* data, key: where what is no field comes from, or NULL. */
+static int find_input(assembly_class *c, const space *s, const pf_slot *slot, const value *data, const double *key,
+                      error *err)
 {
-    int f = slot->eval == PF_DATA ? -1 : space_find_field(s, slot->field);
+    int f = term_slot_field(slot) ? space_find_field(s, slot->field) : -1;
     plan_input *in;
 
     for (int i = 0; i < c->n_input; i++)
-        if (c->input[i].field == f && c->input[i].eval == slot->eval && c->input[i].data == data)
+        if (c->input[i].field == f && c->input[i].eval == slot->eval && c->input[i].data == data &&
+            c->input[i].key == key)
             return i;
     if (c->n_input == ASSEMBLE_MAX_INPUTS)
         return -error_set(err, ERR_PLUGIN, "the terms need more than %d different inputs", ASSEMBLE_MAX_INPUTS);
     in = &c->input[c->n_input];
-    *in = (plan_input){.field = f, .eval = slot->eval, .data = data, .at = c->in_size};
+    *in = (plan_input){.field = f, .eval = slot->eval, .data = data, .key = key, .at = c->in_size};
     in->n_comp = term_components(slot->shape, s->mesh->dim);
     c->in_size += (size_t)in->n_comp;
     if (f >= 0) {
-        mark_used(c, s->field[f].order, kind_of(slot));
+        mark_used(c, s->field[f].order, kind_of(c, slot));
         if (slot->eval == PF_DOT && c->where == PF_FLUID) /* see moving_frame */
             c->grad_used[s->field[f].order] = 1;
     }
@@ -55,7 +60,7 @@ static int find_input(assembly_class *c, const space *s, const pf_slot *slot, co
 static int find_basis(assembly_class *c, const space *s, plan_basis *list, int *n, const pf_slot *slot, error *err)
 {
     int f = space_find_field(s, slot->field);
-    enum basis_kind kind = kind_of(slot);
+    enum basis_kind kind = kind_of(c, slot);
     plan_basis *b = &list[*n];
 
     for (int i = 0; i < *n; i++)
@@ -106,12 +111,20 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
     int dim = s->mesh->dim, shows = term_kind(t) == TERM_SHOWS; /* nothing is solved for: no derivatives */
 
     p->use = use;
+    p->inside = -1;
+    if (use->inside) {
+        p->inside = find_input(c, s, &(pf_slot){.eval = PF_DATA, .shape = PF_SCALAR}, use->inside, NULL, err);
+        if (p->inside < 0)
+            return err->code;
+    }
     c->any_metric |= (t->flags & PF_METRIC) != 0;
+    c->any_wall |= (t->flags & PF_WALL_DISTANCE) != 0;
+    c->any_body_data |= use->plugin->d.min_minor >= 4;
     for (uint32_t k = 0; k < t->n_in; k++) {
         const pf_slot *slot = &t->in[k];
         const int derived = !shows && term_is_unknown(slot), slopes = derived && slot->eval == PF_DOT;
 
-        p->in[k] = find_input(c, s, slot, use->data[k], err);
+        p->in[k] = find_input(c, s, slot, use->data[k], use->key[k], err);
         p->trial[k] = derived ? find_basis(c, s, c->trial, &c->n_trial, slot, err) : -1;
         p->slope[k] = slopes && c->where == PF_FLUID
                           ? find_basis(c, s, c->trial, &c->n_trial,
@@ -169,7 +182,7 @@ static int place_rules(assembly *a, assembly_class *c, const cut_rule *cut, erro
 
         if (c->where == PF_FACET) {
             TRY(fe_rule_facet(type, f, FACET_DEGREE, r, c->tangent[f], &c->orient[f], err));
-        } else if (c->where == PF_PAIR) {
+        } else if (c->where == PF_PAIR || c->where == PF_PARTICLE) {
             r->n = 1; /* any point of the cell: weight 1, and no field of the mesh */
         } else if (c->where == PF_SURFACE) {
             r->n = SURFACE_POINTS; /* where they are comes with the bodies */
@@ -221,17 +234,22 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
     const space *s = a->space;
 
     c->where = spec->where;
-    c->follows = spec->rule != NULL || spec->where == PF_PAIR || spec->where == PF_SURFACE || spec->where == PF_CUT;
-    c->serial = c->where == PF_FACET || c->where == PF_PAIR;
+    c->follows = spec->rule != NULL || spec->where == PF_PAIR || spec->where == PF_PARTICLE ||
+                 spec->where == PF_SURFACE || spec->where == PF_CUT;
+    c->serial = c->where == PF_FACET || c->where == PF_PAIR || c->where == PF_PARTICLE;
     for (int order = 0; order < 3; order++)
         c->n_basis[order] =
             fe_n_basis(s->mesh->type, order) * (c->where == PF_CUT || (c->where == PF_PAIR && order == 0) ? 2 : 1);
     memset(c->block, 0xff, sizeof c->block);
-    for (int i = 0; i < spec->n_use; i++) {
-        if (i == ASSEMBLE_MAX_USES)
+    for (int i = 0; i < 2 * spec->n_use; i++) { /* those with PF_LAST after all others */
+        term_use *use = spec->use[i % spec->n_use];
+
+        if (((use->term->flags & PF_LAST) != 0) != (i >= spec->n_use))
+            continue;
+        if (c->n_use == ASSEMBLE_MAX_USES)
             return error_set(err, ERR_PLUGIN, "more than %d terms act on the same points", ASSEMBLE_MAX_USES);
-        TRY(add_use(c, s, spec->use[i], err));
-        c->use[i].number = number_use(a, spec->use[i]);
+        TRY(add_use(c, s, use, err));
+        c->use[c->n_use - 1].number = number_use(a, use);
     }
     for (int t = 0; t < c->n_test; t++) {
         c->test[t].at = c->test_size;

@@ -6,6 +6,7 @@
 /* Numbers of v8, of bytes in `scratch`, of unknowns and columns in `entries` and `width`. */
 typedef struct sizes {
     size_t q, node, basis[3], in, test, block, out, jac, room, scratch, filled, entries, width, stages;
+    size_t body_q; /* points of the classes that are on bodies */
     int laplace[3], metric;
 } sizes;
 
@@ -36,6 +37,8 @@ static sizes find_sizes(const assembly *a)
         raise(&s.width, (size_t)c->layout.width);
         raise(&s.stages, c->tensor ? tensor_room(type->dim, c->tensor->n) : 0);
         s.metric |= c->any_metric;
+        if (c->any_body_data && c->where != PF_CELL && c->where != PF_FLUID && c->where != PF_FACET)
+            raise(&s.body_q, nq);
         for (int order = 0; order < 3; order++) {
             raise(&s.basis[order], (size_t)assemble_padded(c->n_basis[order]));
             raise(&s.node, s.basis[order]);
@@ -77,19 +80,31 @@ static int room_for_geometry(const sizes *s, size_t dim, workspace *w, error *er
     return 0;
 }
 
+/* Of any field, and not less than a spin in space has. */
+static size_t most_components(const space *s)
+{
+    size_t most = 3;
+
+    for (int f = 0; f < s->n_field; f++)
+        raise(&most, (size_t)s->field[f].n_comp);
+    return most;
+}
+
 int workspace_create(const assembly *a, workspace *w, error *err)
 {
-    size_t dim = (size_t)a->space->mesh->dim;
+    size_t dim = (size_t)a->space->mesh->dim, n_comp = most_components(a->space);
     sizes s = find_sizes(a);
     arena *memory = &w->memory;
 
     TRY(room_for_geometry(&s, dim, w, err));
-    ARENA_NEW(memory, w->rate, s.q * dim * (dim + 1), err);
-    ARENA_NEW(memory, w->dof, s.node * dim, err);
+    if (s.body_q)
+        TRY(body_data_room(s.body_q, dim, w, err));
+    ARENA_NEW(memory, w->rate, s.q * n_comp * (dim + 1), err);
+    ARENA_NEW(memory, w->dof, s.node * n_comp, err);
     ARENA_NEW(memory, w->in, s.in + 1, err);
     ARENA_NEW(memory, w->test, s.test + 1, err);
     ARENA_NEW(memory, w->unknown, s.test + 1, err);
-    ARENA_NEW(memory, w->still, s.q * 3, err);
+    ARENA_NEW(memory, w->still, s.q * n_comp, err);
     ARENA_NEW(memory, w->power, a->n_use + 1, err);
     ARENA_NEW(memory, w->block, s.block + 1, err);
     ARENA_NEW(memory, w->filled, s.filled + 1, err);

@@ -3,55 +3,98 @@
  * plugflow test PLUGIN|TERM|FILE.so: the blocks of a plugin in isolation.  Runs in a child, so
  * that a plugin that crashes is reported like one that is wrong. */
 #include "cli/cli.h"
+#include "cli/watched.h"
 
+#include "base/text.h"
 #include "term/selftest.h"
+#include "term/surroundings.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-enum { TEST_SECONDS = 60 };
+/* One test as it goes on. */
+typedef struct test_run {
+    const cli *o;
+    watched *w;
+} test_run;
 
 static void print_line(void *ctx, int ok, const char *text)
 {
-    (void)ctx;
-    printf("  %s  %s\n", ok ? "ok   " : "WRONG", text);
+    test_run *t = ctx;
+
+    if (t->o->json) {
+        struct text line = {0};
+
+        text_json(&line, text);
+        printf("%s\n  {\"ok\": %s, \"text\": %s}", t->w->passed + t->w->failed ? "," : "", ok ? "true" : "false",
+               line.s ? line.s : "null");
+        text_free(&line);
+    } else {
+        printf("  %s  %s\n", ok ? "ok   " : "WRONG", text);
+    }
+    *(ok ? &t->w->passed : &t->w->failed) += 1;
     fflush(stdout);
 }
 
-static int test(const cli *o, error *err)
+static void on_call(void *ctx, const char *plugin, const char *term, const char *what)
+{
+    test_run *t = ctx;
+    char subject[200];
+
+    snprintf(subject, sizeof subject, "term %.80s.%.80s", plugin, term);
+    watched_enter(t->w, subject, what);
+}
+
+/* Loads the plugin that the operand means. */
+static int load(const cli *o, watched *w, registry *r, term_file **file, const term_plugin **p, const char **only,
+                error *err)
+{
+    const char *name = o->operand[0], *dot = strchr(name, '.');
+    const size_t n = strlen(name);
+    char plugin[128], why[300];
+    surroundings before;
+    int status;
+
+    *file = NULL, *only = NULL;
+    surroundings_take(&before);
+    TRY(registry_create(r, o->plugin, o->n_plugin, err));
+    watched_enter(w, name, "while it is loaded");
+    if (n > 3 && strcmp(name + n - 3, ".so") == 0) {
+        status = registry_load(r, name, file, err);
+        *p = status ? NULL : &(*file)->plugin;
+    } else {
+        snprintf(plugin, sizeof plugin, "%.*s", dot ? (int)(dot - name) : 127, name);
+        *only = dot ? dot + 1 : NULL;
+        status = registry_equation(r, plugin, p, err);
+    }
+    watched_enter(w, name, NULL);
+    if (!status && surroundings_changed(&before, why, sizeof why))
+        status = error_set(err, ERR_PLUGIN, "%s: loading it %s", name, why);
+    surroundings_release(&before);
+    return status;
+}
+
+static int test(watched *w, void *arg, error *err)
 {
     static registry r;
-    selftest s = {.line = print_line};
-    const char *name = o->operand[0], *dot, *only = NULL;
+    const cli *o = arg;
+    test_run t = {o, w};
+    selftest s = {.line = print_line, .enter = on_call, .ctx = &t};
     const term_plugin *p;
-    size_t n = strlen(name);
+    const char *only;
+    term_file *f;
 
-    if (n > 3 && strcmp(name + n - 3, ".so") == 0) {
-        term_file *f;
-
-        TRY(registry_create(&r, NULL, 0, err));
-        TRY(registry_load(&r, name, &f, err));
-        if (!f->plugin.path) {
+    TRY(load(o, w, &r, &f, &p, &only, err));
+    if (f && !f->plugin.path) {
+        if (!o->json)
             printf("%s: a %s plugin; it loads\n", f->path, f->kind);
-            return 0;
-        }
-        p = &f->plugin;
-    } else {
-        char plugin[128];
-
-        dot = strchr(name, '.');
-        snprintf(plugin, sizeof plugin, "%.*s", dot ? (int)(dot - name) : 127, name);
-        only = dot ? dot + 1 : NULL;
-        TRY(registry_create(&r, o->plugin, o->n_plugin, err));
-        TRY(registry_equation(&r, plugin, &p, err));
+        return 0;
     }
-    printf("%s %s (%s)\n", p->d.name, p->d.version, p->path);
+    if (!o->json)
+        printf("%s %s (%s)\n", p->d.name, p->d.version, p->path);
     TRY(selftest_run(&s, p, only, err));
-    printf("%d passed, %d failed\n", s.passed, s.failed);
-    fflush(stdout);
+    if (!o->json)
+        printf("%d passed, %d failed\n", s.passed, s.failed);
     return s.failed
                ? error_set(err, ERR_PLUGIN, "%s: %d of %d checks failed", p->d.name, s.failed, s.passed + s.failed)
                : 0;
@@ -59,32 +102,18 @@ static int test(const cli *o, error *err)
 
 int cli_test(const cli *o, error *err)
 {
-    int status = 0;
-    pid_t child;
+    watched w = {0};
+    text t = {0};
+    int status;
 
-    fflush(stdout);
-    child = fork();
-    if (child < 0)
-        return test(o, err);
-    if (child == 0) {
-        struct rlimit cpu = {TEST_SECONDS, TEST_SECONDS + 5};
-
-        cli_release_signals();
-        setrlimit(RLIMIT_CPU, &cpu);
-        status = test(o, err);
-        if (status)
-            fprintf(stderr, "plugflow: %s\n", err->text);
-        fflush(stdout);
-        _exit(status);
-    }
-    waitpid(child, &status, 0);
-    *err->text = 0;
-    if (WIFEXITED(status))
-        return WEXITSTATUS(status);
-    if (WTERMSIG(status) == SIGXCPU)
-        return error_set(err, ERR_PLUGIN,
-                         "%s: the test takes longer than %d s; is there an endless loop after the last line above?",
-                         o->operand[0], TEST_SECONDS);
-    return error_set(err, ERR_PLUGIN, "%s: the test ended by signal %d (%s); the lines above say where",
-                     o->operand[0], WTERMSIG(status), strsignal(WTERMSIG(status)));
+    if (o->json)
+        printf("{\"checks\": [");
+    status = watched_run(test, (void *)o, o->operand[0], &w, err);
+    if (!o->json)
+        return status;
+    text_json(&t, err->text);
+    printf("\n], \"passed\": %d, \"failed\": %d, \"exit\": %d, \"error\": %s}\n", w.passed, w.failed, status,
+           *err->text ? t.s : "null");
+    text_free(&t);
+    return status;
 }

@@ -201,7 +201,7 @@ void describe_bounds(const mesh *m, double *low, double *high)
         }
 }
 
-int describe_check(const description *d, const mesh *m, error *err)
+int describe_check(description *d, const mesh *m, error *err)
 {
     const char *const *list = (const char *const *)m->name;
     uint64_t named = 0, bare = 0;
@@ -229,7 +229,8 @@ int describe_check(const description *d, const mesh *m, error *err)
         say_bare(d, n_bare, bare, list, m->n_name, t.s ? t.s : "");
         text_free(&t);
     }
-    return case_finish(d->c, err);
+    TRY(case_finish(d->c, err));
+    return describe_start(d, err);
 }
 
 void describe_facets(const description *d, const mesh *m, int line, uint8_t *facet)

@@ -35,6 +35,7 @@ int describe_has(const description *d, int where)
 
 void describe_destroy(description *d)
 {
+    describe_end(d);
     arena_free(&d->memory);
     memset(d, 0, sizeof *d);
 }

@@ -19,7 +19,8 @@ enum {
     DESCRIBE_MAX_PROBES = 64,
     DESCRIBE_MAX_CONTINUED = 16,
     DESCRIBE_MAX_ITERATIONS = 50,
-    DESCRIBE_MAX_PLANES = 64
+    DESCRIBE_MAX_PLANES = 64,
+    DESCRIBE_MAX_KEYS = 32
 };
 
 /* A symmetry plane: x_axis = at. */
@@ -51,6 +52,15 @@ typedef struct boundary_line {
     value flux_value[DESCRIBE_MAX_TERMS];
 } boundary_line;
 
+/* A key of particle{} that terms ask for (PF_BODY_KEY). */
+typedef struct body_key {
+    const char *name, *unit, *doc;
+    const term_use *use; /* the first that has it */
+    int n_comp, vector;
+    double dflt, min, max;
+    double *value; /* [n_body][n_comp] */
+} body_key;
+
 enum body_motion { BODY_FREE, BODY_FIXED, BODY_PRESCRIBED };
 
 /* particle {}, or one of particles {}. */
@@ -61,6 +71,9 @@ typedef struct body_spec {
     int motion;     /* enum body_motion */
     pose start;
     value velocity, spin; /* at the start, of the surface (fixed), or prescribed: functions of t */
+    double *key;          /* [n_key][3] of the description's keys */
+    uint32_t has_field;   /* bit f: the body says how its field f starts, */
+    double *field;        /* [TERM_MAX_FIELDS][3] and this is it */
     int held[6];          /* components of velocity (3) and spin (3; 2D: the last) held          */
 } body_spec;
 
@@ -120,6 +133,13 @@ typedef struct term_list {
     const case_block *block[DESCRIBE_MAX_TERMS];
 } term_list;
 
+/* A term that is left out as another one takes its place. */
+typedef struct replacement {
+    const term_plugin *plugin, *by_plugin;
+    const pf_term *term, *by;
+    int line; /* of the other one */
+} replacement;
+
 typedef struct description {
     case_file *c;           /* for messages, and for results{} */
     warning_list *warnings; /* what is doubtful but no error   */
@@ -131,11 +151,17 @@ typedef struct description {
     const case_block *use_block[DESCRIBE_MAX_TERMS]; /* lines that switch them on */
     term_list law, shown;                            /* those that publish properties; that give what is shown */
     field_list shown_fields;                         /* what those show as fields, called like their slots */
-    field_list fields;                               /* their unknowns    */
-    int n_line, boundary_unread;                     /* some line is so wrong that its boundaries are unknown */
+    int n_started; /* of all these: the first so many have been made ready (pf_term.init) */
+    int n_replaced;
+    replacement replaced[DESCRIBE_MAX_TERMS];
+    field_list fields;           /* their unknowns    */
+    int n_line, boundary_unread; /* some line is so wrong that its boundaries are unknown */
     boundary_line *line;
     int n_body;
     body_spec *body;
+    int n_key;
+    body_key key[DESCRIBE_MAX_KEYS];
+    reader *reading; /* the block of a body that is being read */
     value initial[TERM_MAX_FIELDS], exact[TERM_MAX_FIELDS];
     value offset[TERM_MAX_FIELDS]; /* added to what is written, not to what is solved */
     int has_initial[TERM_MAX_FIELDS], has_exact[TERM_MAX_FIELDS], has_offset[TERM_MAX_FIELDS];
@@ -148,8 +174,12 @@ typedef struct description {
 /* Reads all of a case.  What is wrong with it is collected (case_finish); an error is of a plugin or of memory. */
 int describe(description *d, case_file *c, registry *r, warning_list *w, error *err);
 /* What can be checked only with the mesh: names of boundaries in boundary{} and output{} (of a box: earlier),
- * facets without a condition, probes and lines.  ERR_CASE. */
-int describe_check(const description *d, const mesh *m, error *err);
+ * facets without a condition, probes and lines.  ERR_CASE.  If all is well, terms make ready for a run
+ * (pf_term.init); that ends with describe_end or with the description. */
+int describe_check(description *d, const mesh *m, error *err);
+void describe_end(description *d);
+/* "plugin.term is left out: ...", for i < n_replaced. */
+void describe_tell_replaced(const description *d, int i, char *to, size_t n);
 /* facet[n_facet]: 1 where the facet belongs to a boundary line. */
 void describe_facets(const description *d, const mesh *m, int line, uint8_t *facet);
 /* Planes of the boundaries with symmetry = true, each once. */
@@ -164,6 +194,8 @@ int describe_has(const description *d, int where);
 int describe_shows(const description *d, int where);
 /* Whether the mesh is a box that nothing bends, so that its sides are known before it is made. */
 int describe_is_box(const description *d);
+/* The field that is the bodies' velocity, or angular velocity (spin = 1); -1: none. */
+int describe_motion(const description *d, int spin);
 /* Whether bodies move in time. */
 int describe_moves(const description *d);
 
@@ -198,6 +230,15 @@ int describe_corners(reader *r, const char *key, const char *doc, double *low, d
 /* Adds a warning with file and line. */
 void describe_warn(description *d, const case_block *b, const char *key, const char *fmt, ...)
     __attribute__((format(printf, 4, 5)));
+/* Keys of a line about all its terms (instances.c). */
+int describe_instance(description *d, reader *own, const value **inside, const char **label, error *err);
+/* 0: another line has the term on, too, and says so. */
+int describe_check_twice(description *d, const reader *own, const term_use *u);
+/* Marks the terms that others replace; takes them out. */
+void describe_replace(description *d, registry *r);
+void describe_leave_out(description *d);
+/* pf_term.init of all terms.  ERR_CASE. */
+int describe_start(description *d, error *err);
 /* Parameters and data of a term that is on, from its line and from fluid{}. */
 int describe_term_keys(description *d, reader *own, reader *fluid, term_use *u, error *err);
 /* Keys on a line that belong to another term of its plugin, and in fluid{} that belong on a line. */
@@ -208,6 +249,13 @@ const pf_param *describe_param(const term_use *u, const char *name);
 /* 1 if a term on cells has the field among its unknowns and its test functions (off the diagonal a prescribed value
  * would take the place of another balance). */
 int describe_field_is_balanced(const description *d, int f);
+/* A key that no term has asked for in this block, but another term or block has it. */
+void describe_misplaced(description *d, reader *r, const char *key, const char *fmt, ...)
+    __attribute__((format(printf, 4, 5)));
+/* Which keys bodies have by terms; those of a body, and how its fields start; then, with all bodies, to the terms. */
+int describe_body_keys(description *d, error *err);
+int describe_body_extras(description *d, reader *r, body_spec *q, error *err);
+int describe_hand_out_keys(description *d, error *err);
 /* Everything of a body but its place. */
 int describe_body(description *d, reader *r, body_spec *q, error *err);
 /* The shape that disk{}, sphere{} ... left on top of the Lua stack; pops it. */

@@ -29,11 +29,13 @@ static void read_fields(description *d, const char *kind, value *v, int *has)
     reader_open(&r, d->c, case_find(d->c, kind, 0), kind);
     r.noun = "field";
     for (int f = 0; f < d->fields.n; f++)
-        if (d->fields.f[f].support != PF_ON_PARTICLE)
+        if (d->fields.f[f].support != PF_ON_PARTICLE ||
+            (v == d->initial && f != describe_motion(d, 0) && f != describe_motion(d, 1)))
             has[f] = describe_value(&r, d->fields.f[f].name, d->fields.f[f].doc, d->fields.f[f].n_comp, d->dim,
                                     &v[f]) > 0;
     for (int f = 0; f < d->fields.n; f++)
-        if (d->fields.f[f].support == PF_ON_PARTICLE && reader_has(&r, d->fields.f[f].name))
+        if (d->fields.f[f].support == PF_ON_PARTICLE && !has[f] && reader_has(&r, d->fields.f[f].name) &&
+            !reader_asked(&r, d->fields.f[f].name))
             refuse_of_bodies(d, &r, &d->fields.f[f]);
     if (!d->incomplete)
         reader_close(&r);

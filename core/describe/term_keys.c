@@ -93,10 +93,7 @@ int describe_term_keys(description *d, reader *own, reader *fluid, term_use *u, 
     return read_data(d, own, u, err);
 }
 
-/* A key that no term has asked for here, but another term, or another line, has it. */
-static void misplaced(description *d, reader *r, const char *key, const char *fmt, ...)
-    __attribute__((format(printf, 4, 5)));
-static void misplaced(description *d, reader *r, const char *key, const char *fmt, ...)
+void describe_misplaced(description *d, reader *r, const char *key, const char *fmt, ...)
 {
     char why[400];
     va_list ap;
@@ -119,13 +116,13 @@ void describe_off_keys(description *d, reader *own, const term_plugin *plugin)
 
         for (uint32_t k = 0; k < t->n_in; k++)
             if (t->in[k].eval == PF_DATA && (t->flags & PF_BY_BOUNDARY))
-                misplaced(d, own, t->in[k].name, "(%s.%s) is a key of boundary \"...\" {}", name, t->name);
+                describe_misplaced(d, own, t->in[k].name, "(%s.%s) is a key of boundary \"...\" {}", name, t->name);
             else if (t->in[k].eval == PF_DATA)
-                misplaced(d, own, t->in[k].name,
+                describe_misplaced(d, own, t->in[k].name,
                           "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name, t->name,
                           name, t->name);
         for (uint32_t k = 0; k < t->n_param; k++)
-            misplaced(d, own, t->param[k].name,
+            describe_misplaced(d, own, t->param[k].name,
                       "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name, t->name, name,
                       t->name);
     }
@@ -139,11 +136,11 @@ void describe_unshared_keys(description *d, reader *fluid)
 
         for (uint32_t k = 0; k < t->n_in; k++)
             if (t->in[k].eval == PF_DATA && (t->flags & PF_BY_BOUNDARY))
-                misplaced(d, fluid, t->in[k].name, "is a key of boundary \"...\" {}");
+                describe_misplaced(d, fluid, t->in[k].name, "is a key of boundary \"...\" {}");
             else if (t->in[k].eval == PF_DATA)
-                misplaced(d, fluid, t->in[k].name, "is a key of the line term \"%s\" {}", line);
+                describe_misplaced(d, fluid, t->in[k].name, "is a key of the line term \"%s\" {}", line);
         for (uint32_t k = 0; k < t->n_param; k++)
-            misplaced(d, fluid, t->param[k].name, "is a key of the line term \"%s\" {}", line);
+            describe_misplaced(d, fluid, t->param[k].name, "is a key of the line term \"%s\" {}", line);
     }
 }
 

@@ -109,6 +109,7 @@ static int make_system(problem *p, const linear_choice *solvers, error *err)
                                         .facet_on = p->conditions.facet[i]};
     TRY(system_create(&p->system, &p->space, spec, n, solvers, p->n_thread, err));
     p->system.linear.warnings = &p->warnings;
+    p->system.assembly.walls = p->bodies.has_walls ? &p->bodies.walls : NULL;
     p->system.gauge.sharp = p->bodies.has_surface;
     return 0;
 }
@@ -165,6 +166,7 @@ int problem_create_coarse(problem *p, const problem *fine, error *err)
     p->n_thread = fine->n_thread;
     p->description = fine->description;
     p->description.memory = (arena){0};
+    p->description.n_started = 0;
     TRY(problem_halve(&p->description.mesh.box, &p->memory, err));
     TRY(problem_make_mesh(&p->description, NULL, &p->mesh, err));
     TRY(make_periodic(&p->description, &p->mesh, err));

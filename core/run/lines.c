@@ -52,7 +52,7 @@ static void add_header(const run *r, text *s)
     for (int d = 0; d < p->mesh.dim; d++)
         text_add(s, ",%c", "xyz"[d]);
     for (int f = 0; f < p->space.n_field; f++) {
-        char name[3][96];
+        char name[VALUE_MAX][96];
 
         for (int k = 0, n = output_components(&p->space.field[f], "", name); k < n; k++)
             text_add(s, ",%s", name[k]);
@@ -89,10 +89,12 @@ static void add_point(const run *r, const located *at, const double *x, double t
         text_number(s, x[d]);
     }
     for (int f = 0; f < p->space.n_field; f++) {
-        double v[VALUE_MAX] = {NAN, NAN, NAN};
+        double v[VALUE_MAX];
 
         if (!output_has_columns(&p->space.field[f]))
             continue;
+        for (int c = 0; c < VALUE_MAX; c++)
+            v[c] = NAN;
         if (at->cell >= 0)
             locate_value(&p->space, at, f, r->shown, v, NULL);
         if (in)

@@ -112,7 +112,8 @@ int output_fields(run *r, double t, error *err); /* a .vtu and the .pvd         
 int output_event(run *r, const char *event, const char *fields_json, error *err);
 int output_case(const run *r, error *err); /* case.json */
 
-/* Columns of a field in tables: u, v, w for the velocity; name, or name_x, for others.  Their number. */
+/* Columns of a field in tables: u, v, w for the velocity; name, or name_x, or name_xy, for others.  Their number.
+ */
 int output_components(const field_spec *f, const char *prefix, char (*name)[96]);
 int output_has_columns(const field_spec *f);
 int tables_locate(run *r, error *err);            /* ERR_CASE if a probe lies outside the mesh */

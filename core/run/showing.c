@@ -67,6 +67,8 @@ static int make_shown(run *r, showing *s, error *err)
         term_use *u = &d->shown.use[i];
         int where = u->where == PF_CELL && is_of_fluid(p, u) ? PF_FLUID : u->where;
 
+        if (u->replaced)
+            continue;
         where = where == PF_FLUID && d->n_body == 0 ? PF_CELL : where;
         on[where][n_on[where]++] = u;
         s->rated |= shown_needs_step(u->term);
@@ -168,11 +170,15 @@ static int is_early(const run *r, const term_use *u)
 
 /* --- tables --- */
 
+/* [name of the line.]prefix slot[_component] */
 static void name_columns(const shown_integral *q, const char *prefix, char (*name)[96], const char **unit)
 {
     const field_spec like = {.name = q->slot->name, .n_comp = q->n_comp, .shape = (int)q->slot->shape};
 
-    output_components(&like, prefix, name);
+    char full[80];
+
+    snprintf(full, sizeof full, "%.24s%s%s", q->use->label ? q->use->label : "", q->use->label ? "." : "", prefix);
+    output_components(&like, full, name);
     for (int k = 0; k < q->n_comp; k++)
         unit[k] = q->slot->unit;
 }
@@ -203,10 +209,10 @@ static int list_columns(const run *r, char (*name)[96], const char **unit, doubl
 
         for (int b = 0; b < (q->per == SHOWN_BOUNDARY ? n_boundary(r) : q->per == SHOWN_WHOLE); b++) {
             const int of = q->per == SHOWN_BOUNDARY ? boundary(r, b) : 0;
-            char prefix[60] = "";
+            char prefix[50] = "";
 
             if (q->per == SHOWN_BOUNDARY)
-                snprintf(prefix, sizeof prefix, "%.50s.", r->p->mesh.name[of]);
+                snprintf(prefix, sizeof prefix, "%.48s.", r->p->mesh.name[of]);
             if (name)
                 name_columns(q, prefix, name + n, unit + n);
             for (int k = 0; value && k < q->n_comp; k++)

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char axis[] = "xyz", velocity_name[] = "uvw";
+static const char velocity_name[] = "uvw";
 
 int output_has_columns(const field_spec *f)
 {
@@ -29,7 +29,7 @@ int output_components(const field_spec *f, const char *prefix, char (*name)[96])
         else if (strcmp(f->name, "u") == 0)
             snprintf(name[k], 96, "%s%c", prefix, velocity_name[k]);
         else
-            snprintf(name[k], 96, "%s%s_%c", prefix, f->name, axis[k]);
+            snprintf(name[k], 96, "%s%s_%s", prefix, f->name, term_component((uint32_t)f->shape, f->n_comp, k));
     return f->n_comp;
 }
 
@@ -89,7 +89,8 @@ static int plan_table(run *r, table *t, const char *file, columns *c, text *unit
     return status;
 }
 
-/* Columns of one boundary: fx, fy[, fz], torque (2D) or tx, ty, tz, and other reactions by name. */
+/* Columns of one boundary: fx, fy[, fz], torque (2D) or tx, ty, tz, and other reactions by name; of a tensor fxx,
+ * fxy, ... */
 static void force_columns(const problem *p, const char *boundary, columns *c)
 {
     for (int f = 0; f < p->space.n_field; f++) {
@@ -104,15 +105,16 @@ static void force_columns(const problem *p, const char *boundary, columns *c)
             if (g->n_comp == 1)
                 snprintf(name[k], 96, "%.40s.%s", boundary, g->reaction);
             else
-                snprintf(name[k], 96, "%.40s.%c%c", boundary, g->reaction[0], axis[k]);
-        if (g->n_comp == 1 || !name)
+                snprintf(name[k], 96, "%.40s.%c%s", boundary, g->reaction[0],
+                         term_component((uint32_t)g->shape, g->n_comp, k));
+        if (g->shape != PF_VECTOR || !name)
             continue;
         name = more(c, n_torque, "N m");
         for (int k = 0; name && k < n_torque; k++)
             if (p->description.dim == 2)
                 snprintf(name[k], 96, "%.40s.torque", boundary);
             else
-                snprintf(name[k], 96, "%.40s.t%c", boundary, axis[k]);
+                snprintf(name[k], 96, "%.40s.t%c", boundary, "xyz"[k]);
     }
 }
 
@@ -223,29 +225,31 @@ static double *reaction(const run *r, int boundary, int f, const double *about, 
     int n_comp = s->field[f].n_comp,
         n_local = s->field[f].order == 2 ? m->type->facet_nodes : m->type->facet_vertices;
     uint8_t *mine = r->facet_count, *all = mine + m->n_node, *seen = all + m->n_node;
-    double torque[3] = {0}, sum[3] = {0};
+    double torque[3] = {0}, sum[VALUE_MAX] = {0};
+    int turns = s->field[f].shape == PF_VECTOR;
 
     memset(mine, 0, (size_t)(3 * m->n_node));
     count_facets(p, boundary, f, n_local, mine, all);
     for (int32_t node = 0; node < m->n_node; node++) {
         const double *res = r->stepper->reaction[REACTION_ALL] + (mine[node] ? s->first[f][node] : 0);
         int32_t carrier = mine[node] ? s->dof_node[s->first[f][node]] : 0; /* periodic ends are one node */
-        double share = all[node] > mine[node] ? (double)mine[node] / all[node] : 1, d[3] = {0}, q[3] = {0};
+        double share = all[node] > mine[node] ? (double)mine[node] / all[node] : 1, d[3] = {0}, q[VALUE_MAX] = {0};
 
         if (!mine[node] || seen[carrier]++)
             continue;
         for (int a = 0; a < n_comp; a++) {
             q[a] = -share * res[a];
             sum[a] += q[a];
-            d[a] = n_comp > 1 ? m->x[(int64_t)node * m->dim + a] - about[a] : 0;
         }
+        for (int a = 0; turns && a < m->dim; a++)
+            d[a] = m->x[(int64_t)node * m->dim + a] - about[a];
         torque[0] += d[1] * q[2] - d[2] * q[1];
         torque[1] += d[2] * q[0] - d[0] * q[2];
         torque[2] += d[0] * q[1] - d[1] * q[0];
     }
     for (int a = 0; a < n_comp; a++)
         *out++ = sum[a];
-    if (n_comp > 1)
+    if (turns)
         for (int a = m->dim == 2 ? 2 : 0; a < 3; a++)
             *out++ = torque[a];
     return out;

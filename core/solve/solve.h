@@ -102,6 +102,7 @@ typedef struct newton_time {
     double faded;                /* see assembly_state */
     uint32_t only;               /* not 0: terms with one of these flags only */
     assembly_power *power;       /* NULL: nobody asks */
+    const double (*fluid)[6];    /* see assembly_state */
 } newton_time;
 
 /* The residual of all rows at x, as it is (reactions at prescribed unknowns). */

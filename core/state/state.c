@@ -26,6 +26,7 @@ static const struct member {
     {PER_STATE, offsetof(state, count), sizeof(step_counts)},
     {PER_STATE, offsetof(state, control), sizeof(step_control)},
     {PER_BODY, offsetof(state, past), sizeof(body_past)},
+    {PER_BODY, offsetof(state, fluid), sizeof(body_fluid)},
     {PER_STATE, offsetof(state, written), sizeof(double)},
 };
 

@@ -22,6 +22,11 @@ typedef struct body_past {
     double motion[STATE_PAST][6];
 } body_past;
 
+/* Force and torque of the fluid on a body at the end of the last step (2D: 4th and on: one torque); 0 at the start. */
+typedef struct body_fluid {
+    double force[6];
+} body_fluid;
+
 /* What is remembered of the errors of steps, each over what is allowed; see solve/step_control.h. */
 typedef struct step_control {
     double next;                    /* length of the next step, s */
@@ -54,6 +59,7 @@ typedef struct state {
     step_counts count;
     step_control control; /* of steps that choose their length */
     body_past *past;      /* [n_body] */
+    body_fluid *fluid;    /* [n_body] */
     double written;       /* time of the last file of fields, s */
     arena memory;
 } state;

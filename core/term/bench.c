@@ -1,24 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Points at which a term is tested: random places and values, all different, the same in every run. */
+ * A term on the bench: its arrays, between guarded zones. */
 #include "term/bench.h"
 
-#include "base/process.h"
 #include "base/random.h"
 
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 void bench_line(bench *k, int ok, const char *fmt, ...)
 {
-    char text[900];
+    char text[1500];
     va_list ap;
+    size_t n;
 
+    if (ok && k->quiet)
+        return;
     va_start(ap, fmt);
     vsnprintf(text, sizeof text, fmt, ap);
     va_end(ap);
+    n = strlen(text);
+    if (!ok)
+        snprintf(text + n, sizeof text - n, "%s", k->drawn);
     *(ok ? &k->s->passed : &k->s->failed) += 1;
     k->s->line(k->s->ctx, ok, text);
 }
@@ -28,140 +32,58 @@ int bench_components(const bench *k, const pf_slot *s)
     return term_components(s->shape, k->dim);
 }
 
-static double random_number(bench *k)
+double bench_number(bench *k, double low, double high)
 {
-    return 2 * random_next(&k->random) - 1;
+    return low + (high - low) * random_next(&k->random);
 }
 
-void bench_random_inputs(bench *k)
+static void *numbers(bench *k, const char *kind, const char *name, int rows, size_t unit, int fixed)
 {
-    for (uint32_t i = 0; i < k->t->n_in; i++)
-        for (int c = 0; c < bench_components(k, &k->t->in[i]) * BENCH_LD; c++)
-            k->in[i][c] = random_number(k) + (k->t->in[i].shape == PF_SCALAR ? 1.5 : 0);
+    return guard_new(&k->guard, kind, name, (size_t)rows * BENCH_LD, unit, BENCH_LD, fixed);
 }
 
-void bench_put_param(bench *k, const pf_param *p, const double *v)
-{
-    char *at = (char *)k->params + p->offset;
-    int whole = (int)*v;
-
-    if (p->type == PF_T_REAL || p->type == PF_T_VECTOR)
-        memcpy(at, v, (size_t)(p->type == PF_T_REAL ? 1 : k->dim) * sizeof *v);
-    else
-        memcpy(at, &whole, sizeof whole);
-}
-
-/* Parameters: defaults; required ones get a number inside their range, all different. */
-static void place_params(bench *k)
-{
-    term_defaults(k->t, k->params);
-    for (uint32_t i = 0; i < k->t->n_param; i++) {
-        const pf_param *p = &k->t->param[i];
-        double v = 1.25 + 0.5 * i, vec[3] = {0.3, -0.7, 0.9};
-
-        if (p->min < p->max)
-            v = v < p->min ? p->min : v > p->max ? 0.5 * (fmax(p->min, -1e6) + p->max) : v;
-        if (p->type == PF_T_INT && p->min < p->max)
-            v = v < p->max ? ceil(v) : p->max;
-        if (p->type == PF_T_VECTOR)
-            bench_put_param(k, p, vec);
-        else if ((p->type == PF_T_REAL && p->dflt == 0) || (p->type <= PF_T_INT && (p->flags & PF_REQUIRED)))
-            bench_put_param(k, p, &v);
-    }
-}
-
-/* Inputs, outputs, and two Jacobians, one to be compared with the other. */
-static int create_values(bench *k, error *err)
+static int create_slots(bench *k)
 {
     const pf_term *t = k->t;
 
-    for (uint32_t i = 0; i < t->n_in; i++)
-        ARENA_NEW(&k->memory, k->in[i], bench_components(k, &t->in[i]) * BENCH_LD, err);
+    for (uint32_t i = 0; i < t->n_in; i++) {
+        const int rows = bench_components(k, &t->in[i]);
+
+        k->in[i] = numbers(k, "input", t->in[i].name, rows, sizeof(double), 1);
+        k->z[i] = numbers(k, "input", t->in[i].name, rows, sizeof(pf_complex), 1);
+        if (!k->in[i] || !k->z[i])
+            return 0;
+    }
     for (uint32_t o = 0; o < t->n_out; o++) {
-        ARENA_NEW(&k->memory, k->out[o], bench_components(k, &t->out[o]) * BENCH_LD, err);
-        ARENA_NEW(&k->memory, k->again[o], bench_components(k, &t->out[o]) * BENCH_LD, err);
+        const int rows = bench_components(k, &t->out[o]);
+
+        k->out[o] = numbers(k, "output", t->out[o].name, rows, sizeof(double), 0);
+        k->again[o] = numbers(k, "output", t->out[o].name, rows, sizeof(double), 0);
+        k->w[o] = numbers(k, "output", t->out[o].name, rows, sizeof(pf_complex), 0);
+        if (!k->out[o] || !k->again[o] || !k->w[o])
+            return 0;
+    }
+    return 1;
+}
+
+/* Two Jacobians, one to be compared with the other. */
+static int create_blocks(bench *k)
+{
+    const pf_term *t = k->t;
+
+    for (uint32_t o = 0; o < t->n_out; o++)
         for (uint32_t i = 0; i < t->n_in; i++) {
-            size_t n = (size_t)(bench_components(k, &t->out[o]) * bench_components(k, &t->in[i]) * BENCH_LD);
+            const int rows = bench_components(k, &t->out[o]) * bench_components(k, &t->in[i]);
+            char name[200], *kept;
 
-            ARENA_NEW(&k->memory, k->jac[o * t->n_in + i], n, err);
-            ARENA_NEW(&k->memory, k->truth[o * t->n_in + i], n, err);
+            snprintf(name, sizeof name, "d %.90s / d %.90s", t->out[o].name, t->in[i].name);
+            kept = arena_strdup(&k->memory, name);
+            k->jac[o * t->n_in + i] = numbers(k, "Jacobian block", kept, rows, sizeof(double), 0);
+            k->truth[o * t->n_in + i] = numbers(k, "Jacobian block", kept, rows, sizeof(double), 0);
+            if (!kept || !k->jac[o * t->n_in + i] || !k->truth[o * t->n_in + i])
+                return 0;
         }
-    }
-    return 0;
-}
-
-/* A symmetric positive definite matrix at each point, as of elements of different sizes and stretching: A^T A + 1.
- */
-static int create_metric(bench *k, error *err)
-{
-    const int d = k->dim;
-
-    ARENA_NEW(&k->memory, k->metric, d * d * BENCH_LD, err);
-    for (int l = 0; l < BENCH_LD; l++) {
-        double a[3][3];
-
-        for (int i = 0; i < d * d; i++)
-            a[i / d][i % d] = 3 * random_number(k);
-        for (int i = 0; i < d * d; i++) {
-            double *g = &k->metric[i * BENCH_LD + l];
-
-            *g = i / d == i % d;
-            for (int r = 0; r < d; r++)
-                *g += a[r][i / d] * a[r][i % d];
-        }
-    }
-    return 0;
-}
-
-static int create_points(bench *k, error *err)
-{
-    ARENA_NEW(&k->memory, k->x, 3 * BENCH_LD, err);
-    ARENA_NEW(&k->memory, k->normal, 3 * BENCH_LD, err);
-    ARENA_NEW(&k->memory, k->h, BENCH_LD, err);
-    ARENA_NEW(&k->memory, k->arm, 3 * BENCH_LD, err);
-    ARENA_NEW(&k->memory, k->density, BENCH_LD, err);
-    ARENA_NEW(&k->memory, k->id, BENCH_LD, err);
-    for (int i = 0; i < 3 * BENCH_LD; i++) {
-        k->x[i] = random_number(k);
-        k->normal[i] = i / BENCH_LD == 0 ? 0.6 : i / BENCH_LD == 1 ? (k->dim == 2 ? -0.8 : 0.48) : 0.64;
-    }
-    for (int i = 0; i < BENCH_LD; i++)
-        k->h[i] = 0.1 + 0.01 * i, k->density[i] = 2 + 0.1 * i;
-    for (int i = 0; i < 3 * BENCH_LD; i++)
-        k->arm[i] = random_number(k);
-    return 0;
-}
-
-/* The batch, with what points of this kind have. */
-static pf_batch batch_of(bench *k)
-{
-    const uint32_t where = k->t->where;
-    const int on_pair = where == PF_PAIR, on_body = where == PF_SOLID || where == PF_SURFACE;
-
-    return (pf_batch){
-        .size = sizeof(pf_batch),
-        .dim = (uint32_t)k->dim,
-        .n = BENCH_LD,
-        .ld = BENCH_LD,
-        .t = 0.7,
-        .dt = 0.1,
-        .shift = 15,
-        .x = k->x,
-        .normal = where == PF_FACET || where == PF_SURFACE || on_pair ? k->normal : NULL,
-        .h = k->h,
-        .arm = on_body ? k->arm : NULL,
-        .density = on_body || on_pair ? k->density : NULL,
-        .id = on_body || on_pair ? k->id : NULL,
-        .gap = on_pair ? k->h : NULL,
-        .size_of = on_pair ? k->density : NULL,
-        .other_size = on_pair ? k->density : NULL,
-        .other_density = on_pair ? k->density : NULL,
-        .metric = k->metric,
-        .params = k->params,
-        .scratch = k->scratch,
-        .kernel = &k->report,
-        .host = &term_host,
-    };
+    return 1;
 }
 
 int bench_create(bench *k, selftest *s, const term_plugin *p, const pf_term *t, int dim, error *err)
@@ -172,31 +94,23 @@ int bench_create(bench *k, selftest *s, const term_plugin *p, const pf_term *t, 
                  .dim = dim,
                  .report = {.plugin = p->d.name, .term = t->name},
                  .random = RANDOM_SEED};
-    k->params = arena_alloc(&k->memory, t->params_bytes + 1, 1);
+    k->guard.memory = &k->memory;
+    k->params = guard_new(&k->guard, "the parameters", NULL, t->params_bytes, 1, 0, 1);
+    k->scratch = guard_new(&k->guard, "the scratch memory", NULL, t->scratch_bytes, 1, 0, 0);
+    k->other_params = arena_alloc(&k->memory, t->params_bytes + 1, 1);
     k->room = arena_alloc(&k->memory, term_jacobian_room(t, dim, BENCH_LD) + 64, 1);
-    k->scratch = arena_alloc(&k->memory, t->scratch_bytes + 1, 1);
-    if (!k->params || !k->room || !k->scratch)
+    if (!k->params || !k->other_params || !k->room || !k->scratch || !create_slots(k) || !create_blocks(k))
         return error_memory(err, "test of a term", 0);
-    TRY(create_values(k, err));
-    TRY(create_points(k, err));
-    if (t->flags & PF_METRIC)
-        TRY(create_metric(k, err));
-    place_params(k);
+    surroundings_take(&k->surroundings);
+    TRY(bench_points(k, err));
+    bench_params(k, 0);
     bench_random_inputs(k);
-    k->b = batch_of(k);
     return 0;
 }
 
-int bench_call(bench *k, double *const *out, const char *what)
+void bench_destroy(bench *k)
 {
-    int status;
-
-    k->report.status = 0;
-    process_enter(k->p->d.name, k->t->name, what, -1);
-    status = k->t->residual(&k->b, (const double *const *)k->in, out);
-    process_leave();
-    if (status)
-        bench_line(k, 0, "%s  %s returned %d: %s", k->t->name, what, status,
-                   k->report.status ? k->report.text : "without saying why (host->fail gives the reason)");
-    return status == 0;
+    bench_done(k);
+    surroundings_release(&k->surroundings);
+    arena_free(&k->memory);
 }

@@ -46,11 +46,8 @@ static int check_special(const pf_slot *slot, uint32_t where, int is_out, const 
                            term_eval_name(slot->eval));
     if (shown && where == PF_CUT)
         return check_wrong(err, s, "slot \"%s\": PF_CUT points have nothing to show", slot->name);
-    if (shown && (slot->shape > PF_SPIN || slot->shape == PF_TENSOR))
-        return check_wrong(err, s,
-                           "slot \"%s\": a scalar, a vector or a spin can be shown; give components of a tensor "
-                           "one by one",
-                           slot->name);
+    if (shown && slot->shape > PF_SYMMETRIC)
+        return check_wrong(err, s, "slot \"%s\": a gradient of a tensor cannot be shown", slot->name);
     if (slot->eval == PF_SHOW && where != PF_CELL && where != PF_FLUID && where != PF_SOLID)
         return check_wrong(err, s, "slot \"%s\": a field can be shown of points in cells, not of %s points",
                            slot->name, term_where_name(where));
@@ -175,6 +172,10 @@ static const char *later(const pf_term *t, uint32_t *minor)
             *minor = 4;
             return s->eval > PF_LAPLACE ? term_eval_name(s->eval) : "a slot";
         }
+    }
+    if (t->replaces || t->init || t->done) {
+        *minor = 4;
+        return t->replaces ? "replaces" : "init and done";
     }
     if (t->where == PF_PARTICLE || t->flags & (PF_WALL_DISTANCE | PF_ONLY_2D | PF_ONLY_3D | PF_LAST)) {
         *minor = 4;

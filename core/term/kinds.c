@@ -27,6 +27,48 @@ int term_components(uint32_t shape, int dim)
     }
 }
 
+const char *term_component(uint32_t shape, int n_comp, int k)
+{
+    static const char *const vector[] = {"x", "y", "z"};
+    static const char *const symmetric[2][6] = {{"xx", "xy", "yy"}, {"xx", "xy", "xz", "yy", "yz", "zz"}};
+    static const char *const tensor[2][9] = {{"xx", "xy", "yx", "yy"},
+                                             {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"}};
+
+    if (n_comp == 1)
+        return "";
+    return shape == PF_SYMMETRIC ? symmetric[n_comp > 3][k]
+           : shape == PF_TENSOR  ? tensor[n_comp > 4][k]
+                                 : vector[k];
+}
+
+int term_turns_sign(uint32_t shape, int n_comp, int k, int axis)
+{
+    const char *name = term_component(shape, n_comp, k), normal = "xyz"[axis];
+
+    if (shape == PF_VECTOR)
+        return k == axis;
+    return term_is_tensor(shape) && (name[0] == normal) != (name[1] == normal);
+}
+
+int term_is_tensor(uint32_t shape)
+{
+    return shape == PF_TENSOR || shape == PF_SYMMETRIC;
+}
+
+const char *term_shape_name(uint32_t shape)
+{
+    static const char *const name[] = {"",
+                                       "scalar",
+                                       "vector",
+                                       "tensor",
+                                       "spin",
+                                       "symmetric tensor",
+                                       "gradient of a symmetric tensor",
+                                       "gradient of a tensor"};
+
+    return shape <= PF_TENSOR_GRAD ? name[shape] : "";
+}
+
 int term_slot_field(const pf_slot *s)
 {
     return s->eval >= PF_VALUE && s->eval <= PF_OTHER && s->eval != PF_DATA && s->eval != PF_PROPERTY &&

@@ -3,20 +3,62 @@
  * Tests that follow from a term's own description, in 2D and in 3D. */
 #include "term/selftest_parts.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+static int has_dim(const pf_term *t, int dim)
+{
+    return !(t->flags & (dim == 2 ? PF_ONLY_3D : PF_ONLY_2D));
+}
+
+/* With one draw of the parameters. */
+static void test_draw(bench *k)
+{
+    if (bench_init(k) && selftest_values(k))
+        selftest_jacobian(k);
+    bench_done(k);
+}
+
+/* The defaults, and told line by line; then other parameters, of which only what is wrong is told. */
+static void test_draws(bench *k)
+{
+    const int before = k->s->failed, n = bench_draws(k);
+    int drawn = 0;
+
+    test_draw(k);
+    for (int draw = 1; draw < n && k->s->failed == before; draw++) {
+        if (!bench_params(k, draw))
+            continue;
+        drawn++;
+        k->quiet = 1;
+        bench_random_inputs(k);
+        test_draw(k);
+        k->quiet = 0;
+    }
+    if (k->s->failed == before && n > 1)
+        bench_line(k, 1, "%s  the same in %dD with %d random draws of its parameters%s", k->t->name, k->dim, drawn,
+                   drawn ? "" : ": its check refuses all that were tried");
+    bench_params(k, 0);
+}
 
 static int test_term(selftest *s, const term_plugin *p, const pf_term *t, error *err)
 {
     for (int dim = 2; dim <= 3; dim++) {
-        bench k;
-        int status = bench_create(&k, s, p, t, dim, err);
+        bench *k;
+        int status;
 
-        if (!status && selftest_values(&k))
-            selftest_jacobian(&k);
+        if (!has_dim(t, dim))
+            continue;
+        if (!(k = malloc(sizeof *k)))
+            return error_memory(err, "test of a term", sizeof *k);
+        status = bench_create(k, s, p, t, dim, err);
+        if (!status)
+            test_draws(k);
         for (uint32_t e = 0; e < t->n_example && !status; e++)
             if ((int)t->example[e].dim == dim)
-                selftest_example(&k, &t->example[e]);
-        arena_free(&k.memory);
+                selftest_example(k, &t->example[e]);
+        bench_destroy(k);
+        free(k);
         TRY(status);
     }
     return 0;

@@ -10,6 +10,8 @@ typedef struct selftest {
     int passed, failed;
     /* One line of the report; ok = 0: what is wrong. */
     void (*line)(void *ctx, int ok, const char *text);
+    /* Before and after every call of a plugin's function: what of it; afterwards `what` is NULL.  May be NULL. */
+    void (*enter)(void *ctx, const char *plugin, const char *term, const char *what);
     void *ctx;
 } selftest;
 

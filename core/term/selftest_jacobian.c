@@ -4,8 +4,8 @@
  * couplings that it denies; linearity where it claims it. */
 #include "term/selftest_parts.h"
 
-#include "base/process.h"
 #include "term/block.h"
+#include "term/entry.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,7 +22,7 @@ static void compare_block(bench *k, uint32_t o, uint32_t i, const char *how, dou
     const double *given = k->jac[o * k->t->n_in + i], *truth = k->truth[o * k->t->n_in + i];
     size_t n = (size_t)(rows * cols * BENCH_LD);
     double size = block_norm(truth, n), e = block_distance(given, truth, 1, n);
-    char why[200];
+    char why[200], entry[900];
 
     if (e <= tolerance * size || (size == 0 && e == 0)) {
         bench_line(k, 1, "%s  d %s / d %s in %dD: analytic = %s to %.1e", k->t->name, out->name, in->name, k->dim,
@@ -34,7 +34,27 @@ static void compare_block(bench *k, uint32_t o, uint32_t i, const char *how, dou
         if (block_exchanged_distance(given, truth, rows, k->dim, BENCH_LD, kept) < 1e-6 * size)
             snprintf(why, sizeof why, "transpose: the %stwo indices of %s %s", kept ? "part with the " : "",
                      in->name, kept ? "exchanged is missing" : "are exchanged");
-    bench_line(k, 0, "%s  d %s / d %s in %dD: %s", k->t->name, out->name, in->name, k->dim, why);
+    entry_first_wrong(k, o, i, given, truth, tolerance, entry, sizeof entry);
+    bench_line(k, 0, "%s  d %s / d %s in %dD: %s%s%s", k->t->name, out->name, in->name, k->dim, why,
+               *entry ? "; first wrong entry: " : "", entry);
+}
+
+/* Lanes that are no points count for nothing. */
+static void clear_repeated(double *block, int rows)
+{
+    for (int r = 0; r < rows; r++)
+        memset(block + r * BENCH_LD + BENCH_N, 0, (BENCH_LD - BENCH_N) * sizeof *block);
+}
+
+static size_t block_size(const bench *k, uint32_t o, uint32_t i)
+{
+    return (size_t)(bench_components(k, &k->t->out[o]) * bench_components(k, &k->t->in[i]) * BENCH_LD);
+}
+
+/* 1 if there is such a derivative: memory is kept, not solved for. */
+static int has_block(const pf_term *t, uint32_t o, uint32_t i)
+{
+    return term_is_derived(&t->in[i]) && t->out[o].eval != PF_STATE;
 }
 
 static int derive(bench *k, enum term_derivative how, double **jac, const char *what)
@@ -45,18 +65,18 @@ static int derive(bench *k, enum term_derivative how, double **jac, const char *
 
     for (uint32_t o = 0; o < t->n_out; o++)
         for (uint32_t i = 0; i < t->n_in; i++) {
-            memset(jac[o * t->n_in + i], 0,
-                   (size_t)(bench_components(k, &t->out[o]) * bench_components(k, &t->in[i]) * BENCH_LD) *
-                       sizeof(double));
-            given[o * t->n_in + i] = term_is_unknown(&t->in[i]) ? jac[o * t->n_in + i] : NULL;
+            memset(jac[o * t->n_in + i], 0, block_size(k, o, i) * sizeof(double));
+            given[o * t->n_in + i] = term_is_derived(&t->in[i]) ? jac[o * t->n_in + i] : NULL;
         }
-    k->report.status = 0;
-    process_enter(k->p->d.name, t->name, what, -1);
+    bench_enter(k, what);
     status = term_jacobian(t, how, &k->b, (const double *const *)k->in, given, k->room);
-    process_leave();
+    if (!bench_left(k, what))
+        return 0;
     if (status)
         bench_line(k, 0, "%s  %s returned %d: %s", t->name, what, status,
                    k->report.status ? k->report.text : "without saying why");
+    for (uint32_t j = 0; j < t->n_out * t->n_in; j++)
+        clear_repeated(jac[j], (int)(block_size(k, j / t->n_in, j % t->n_in) / BENCH_LD));
     return status == 0;
 }
 
@@ -69,19 +89,42 @@ static int twin_derives(bench *k)
         return 0;
     for (uint32_t o = 0; o < t->n_out; o++)
         for (uint32_t i = 0; i < t->n_in; i++) {
-            size_t n = (size_t)(bench_components(k, &t->out[o]) * bench_components(k, &t->in[i]) * BENCH_LD);
+            size_t n = block_size(k, o, i);
             const double *a = k->truth[o * t->n_in + i], *b = k->jac[o * t->n_in + i];
+            char entry[900];
 
-            if (term_is_unknown(&t->in[i]) && !(block_distance(a, b, 1, n) <= 1e-3 * block_norm(b, n) + 1e-6)) {
+            if (has_block(t, o, i) && !(block_distance(a, b, 1, n) <= 1e-3 * block_norm(b, n) + 1e-6)) {
+                entry_first_wrong(k, o, i, a, b, 1e-3, entry, sizeof entry);
                 bench_line(
                     k, 0,
                     "%s  d %s / d %s in %dD: residual_c does not carry the derivative (norm %.6g, by differences "
-                    "%.6g); has it fabs, a real part or a real variable in it?",
-                    t->name, t->out[o].name, t->in[i].name, k->dim, block_norm(a, n), block_norm(b, n));
+                    "%.6g): %s; has it fabs, a real part or a real variable in it?",
+                    t->name, t->out[o].name, t->in[i].name, k->dim, block_norm(a, n), block_norm(b, n), entry);
                 return 0;
             }
         }
     return 1;
+}
+
+/* What the term says to be no coupling is none. */
+static void test_depends(bench *k)
+{
+    const pf_term *t = k->t;
+
+    for (uint32_t o = 0; o < t->n_out && t->depends; o++)
+        for (uint32_t i = 0; i < t->n_in; i++) {
+            const double *truth = k->truth[o * t->n_in + i];
+            char entry[900];
+
+            if (!has_block(t, o, i) || t->depends[o * t->n_in + i] || block_norm(truth, block_size(k, o, i)) == 0)
+                continue;
+            memset(k->jac[o * t->n_in + i], 0, block_size(k, o, i) * sizeof(double));
+            entry_first_wrong(k, o, i, k->jac[o * t->n_in + i], truth, 0, entry, sizeof entry);
+            bench_line(k, 0,
+                       "%s  \"%s\" depends on \"%s\", but depends[%u][%u] says it does not: undeclared dependency; "
+                       "%s",
+                       t->name, t->out[o].name, t->in[i].name, o, i, entry);
+        }
 }
 
 static void test_jacobian(bench *k)
@@ -91,27 +134,19 @@ static void test_jacobian(bench *k)
     int unknowns = 0;
 
     for (uint32_t i = 0; i < t->n_in; i++)
-        unknowns += term_is_unknown(&t->in[i]);
+        unknowns += term_is_derived(&t->in[i]);
     if (!unknowns || !derive(k, t->residual_c ? TERM_COMPLEX : TERM_FD, k->truth, how))
         return;
     if (t->residual_c && !twin_derives(k))
         return;
-    for (uint32_t o = 0; o < t->n_out && t->depends; o++)
-        for (uint32_t i = 0; i < t->n_in; i++)
-            if (!t->depends[o * t->n_in + i] &&
-                block_norm(k->truth[o * t->n_in + i], (size_t)(bench_components(k, &t->out[o]) *
-                                                               bench_components(k, &t->in[i]) * BENCH_LD)) > 0)
-                bench_line(
-                    k, 0,
-                    "%s  \"%s\" depends on \"%s\", but depends[%u][%u] says it does not: undeclared dependency",
-                    t->name, t->out[o].name, t->in[i].name, o, i);
+    test_depends(k);
     if (t->jacobian && !derive(k, TERM_ANALYTIC, k->jac, "Jacobian"))
         return;
     for (uint32_t o = 0; o < t->n_out; o++)
         for (uint32_t i = 0; i < t->n_in; i++)
-            if (term_is_unknown(&t->in[i]) && t->jacobian)
+            if (has_block(t, o, i) && t->jacobian)
                 compare_block(k, o, i, how, t->residual_c ? EXACT : DIFFERENCES);
-            else if (term_is_unknown(&t->in[i]))
+            else if (has_block(t, o, i))
                 bench_line(k, 1, "%s  d %s / d %s in %dD: by %s", t->name, t->out[o].name, t->in[i].name, k->dim,
                            how);
 }
@@ -120,8 +155,9 @@ static void test_linearity(bench *k)
 {
     const pf_term *t = k->t;
     enum term_derivative how = t->residual_c ? TERM_COMPLEX : TERM_FD;
+    const double tolerance = t->residual_c ? 1e-12 : 1e-5;
 
-    if (!(t->flags & PF_LINEAR))
+    if (!(t->flags & PF_LINEAR) || k->captured)
         return;
     if (!derive(k, how, k->truth, "derivative"))
         return;
@@ -129,22 +165,25 @@ static void test_linearity(bench *k)
     if (!derive(k, how, k->jac, "derivative"))
         return;
     for (uint32_t j = 0; j < t->n_out * t->n_in; j++) {
-        size_t n = (size_t)(bench_components(k, &t->out[j / t->n_in]) * bench_components(k, &t->in[j % t->n_in]) *
-                            BENCH_LD);
+        const uint32_t o = j / t->n_in, i = j % t->n_in;
+        size_t n = block_size(k, o, i);
+        char entry[900];
 
-        if (term_is_unknown(&t->in[j % t->n_in]) &&
-            block_distance(k->jac[j], k->truth[j], 1, n) >
-                (t->residual_c ? 1e-12 : 1e-5) * (block_norm(k->truth[j], n) + 1e-300)) {
-            bench_line(k, 0, "%s  is flagged PF_LINEAR, but d %s / d %s changes with the state", t->name,
-                       t->out[j / t->n_in].name, t->in[j % t->n_in].name);
-            return;
-        }
+        if (!has_block(t, o, i) ||
+            block_distance(k->jac[j], k->truth[j], 1, n) <= tolerance * (block_norm(k->truth[j], n) + 1e-300))
+            continue;
+        entry_first_wrong(k, o, i, k->jac[j], k->truth[j], tolerance, entry, sizeof entry);
+        bench_line(k, 0, "%s  is flagged PF_LINEAR, but d %s / d %s changes with the state: %s", t->name,
+                   t->out[o].name, t->in[i].name, entry);
+        return;
     }
     bench_line(k, 1, "%s  linear in %dD, as flagged", t->name, k->dim);
 }
 
 void selftest_jacobian(bench *k)
 {
+    if (term_kind(k->t) == TERM_SHOWS)
+        return;
     test_jacobian(k);
     test_linearity(k);
 }

@@ -4,32 +4,61 @@
  * own whatever the others of its batch are; the complex twin the same function. */
 #include "term/selftest_parts.h"
 
-#include "base/process.h"
+#include "term/entry.h"
 
 #include <complex.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* The residual on outputs that hold `before`; 1 if it went well. */
-static int outputs_over(bench *k, double **to, double before)
+/* What the calls of this file are, in messages. */
+static const char *values_of(const bench *k)
+{
+    return k->captured ? "residual on values of the case" : "residual on random values";
+}
+
+static void fill(bench *k, double **to, double before)
 {
     for (uint32_t o = 0; o < k->t->n_out; o++)
         for (int i = 0; i < bench_components(k, &k->t->out[o]) * BENCH_LD; i++)
             to[o][i] = before;
-    return bench_call(k, to, "residual on random values");
+}
+
+/* The residual on outputs that hold `before`; 1 if it went well. */
+static int outputs_over(bench *k, double **to, double before)
+{
+    fill(k, to, before);
+    return bench_call(k, to, values_of(k));
+}
+
+/* Values on which the term can be computed: it may refuse some, if its slots have ranges, within which only some
+ * belong together. */
+static int find_values(bench *k)
+{
+    int sound = 1;
+
+    for (int i = 0; i < 20 && bench_has_range(k) && !k->captured; i++) {
+        fill(k, k->out, 0);
+        if (bench_status(k, k->out, values_of(k), &sound) != PF_RETRY || !sound)
+            break;
+        bench_random_inputs(k);
+    }
+    return sound;
 }
 
 static void test_outputs(bench *k)
 {
-    if (!outputs_over(k, k->out, 7.7e77) || !outputs_over(k, k->again, -7.7e77))
+    if (!find_values(k) || !outputs_over(k, k->out, 7.7e77) || !outputs_over(k, k->again, -7.7e77))
         return;
     for (uint32_t o = 0; o < k->t->n_out; o++)
         for (int i = 0; i < bench_components(k, &k->t->out[o]) * BENCH_LD; i++) {
             double a = k->out[o][i], b = k->again[o][i];
             int kept = a == 7.7e77 && b == -7.7e77, added = fabs(a - b) > 1e70;
             const char *why;
+            char entry[160];
 
+            if (i % BENCH_LD >= BENCH_N)
+                continue;
             if (kept && outputs_over(k, k->again, 0))
                 added = k->again[o][i] != 0; /* numbers that are small beside 7.7e77 */
             why = !isfinite(a)                    ? "is not a finite number on random values"
@@ -38,129 +67,150 @@ static void test_outputs(bench *k)
                   : memcmp(&a, &b, sizeof a) != 0 ? "differs between two calls with the same values"
                                                   : NULL;
             if (why) {
-                bench_line(k, 0, "%s  output \"%s\"[%d] in %dD %s", k->t->name, k->t->out[o].name, i / BENCH_LD,
-                           k->dim, why);
+                bench_line(k, 0, "%s  output \"%s\"%s in %dD %s", k->t->name, k->t->out[o].name,
+                           entry_index(&k->t->out[o], k->dim, i / BENCH_LD, entry, sizeof entry), k->dim, why);
                 return;
             }
         }
     bench_line(k, 1, "%s  outputs in %dD assigned, finite, repeatable", k->t->name, k->dim);
 }
 
-/* The first n points, in reverse order at the end of the batch before, have the values they had there. */
+/* The first n points, in reverse order at the end of the points before, have the values they had there. */
 static int same_values(bench *k, int n)
 {
-    if (!bench_call(k, k->again, "residual on random values"))
+    if (!bench_call(k, k->again, values_of(k)))
         return 0;
     for (uint32_t o = 0; o < k->t->n_out; o++)
         for (int c = 0; c < bench_components(k, &k->t->out[o]); c++)
-            for (int l = 0; l < n; l++)
-                if (k->again[o][c * BENCH_LD + l] != k->out[o][c * BENCH_LD + BENCH_LD - 1 - l]) {
-                    bench_line(k, 0, "%s  output \"%s\": a point's value depends on the other points of its batch",
-                               k->t->name, k->t->out[o].name);
-                    return 0;
-                }
+            for (int l = 0; l < n; l++) {
+                char entry[160];
+
+                if (k->again[o][c * BENCH_LD + l] == k->out[o][c * BENCH_LD + BENCH_N - 1 - l])
+                    continue;
+                bench_line(k, 0, "%s  output \"%s\": a point's value depends on the other points of its batch (%s)",
+                           k->t->name, k->t->out[o].name,
+                           entry_name(&k->t->out[o], k->dim, c, entry, sizeof entry));
+                return 0;
+            }
     return 1;
 }
 
-static void reverse(double *row)
-{
-    for (int l = 0; l < BENCH_LD / 2; l++) {
-        double swap = row[l];
-
-        row[l] = row[BENCH_LD - 1 - l], row[BENCH_LD - 1 - l] = swap;
-    }
-}
-
 /* The same points in another order give the same values in that order; and a point keeps its
- * values whatever the others are. */
+ * values whatever the others are (as it is itself). */
 static void test_batches(bench *k)
 {
-    for (uint32_t i = 0; i < k->t->n_in; i++)
-        for (int c = 0; c < bench_components(k, &k->t->in[i]); c++)
-            reverse(k->in[i] + c * BENCH_LD);
-    for (int c = 0; c < 3; c++) {
-        reverse(k->x + c * BENCH_LD);
-        reverse(k->arm + c * BENCH_LD);
-    }
-    for (int c = 0; k->metric && c < k->dim * k->dim; c++)
-        reverse(k->metric + c * BENCH_LD);
-    reverse(k->h);
-    reverse(k->density);
-    if (!same_values(k, BENCH_LD))
+    bench_reverse(k);
+    if (!same_values(k, BENCH_N))
         return;
     for (uint32_t i = 0; i < k->t->n_in; i++)
         for (int j = 0; j < bench_components(k, &k->t->in[i]) * BENCH_LD; j++)
-            k->in[i][j] *= j % BENCH_LD ? 1.5 : 1;
+            k->in[i][j] = k->in[i][j - j % BENCH_LD];
     if (same_values(k, 1))
         bench_line(k, 1, "%s  batches in %dD: each point on its own", k->t->name, k->dim);
+    if (!k->captured)
+        bench_random_inputs(k), find_values(k);
+}
+
+/* Where the twin differs most; 0: nowhere. */
+static double twin_differs(bench *k, double size, char *text, size_t n)
+{
+    double worst = 0;
+
+    *text = 0;
+    for (uint32_t o = 0; o < k->t->n_out; o++)
+        for (int c = 0; c < bench_components(k, &k->t->out[o]) * BENCH_LD; c++) {
+            const double twin = creal(k->w[o][c]), e = fabs(twin - k->out[o][c]);
+            char entry[160];
+
+            if (c % BENCH_LD >= BENCH_N || !(e > worst || isnan(e)) || isinf(worst))
+                continue;
+            worst = isnan(e) ? INFINITY : e;
+            snprintf(text, n, "%s is %.6g there, %.6g here",
+                     entry_name(&k->t->out[o], k->dim, c / BENCH_LD, entry, sizeof entry), twin, k->out[o][c]);
+        }
+    return worst <= 1e-13 * size ? 0 : worst;
 }
 
 /* The complex twin must be the same function. */
 static void test_twin(bench *k)
 {
-    double worst = 0, size = 0;
+    double worst, size = 0;
+    char where[300];
     int status;
-    pf_complex *z = k->room, *w[TERM_MAX_SLOTS];
-    const pf_complex *in[TERM_MAX_SLOTS];
 
-    for (uint32_t i = 0; i < k->t->n_in; i++) {
-        in[i] = z;
+    for (uint32_t i = 0; i < k->t->n_in; i++)
         for (int c = 0; c < bench_components(k, &k->t->in[i]) * BENCH_LD; c++)
-            *z++ = k->in[i][c];
-    }
-    for (uint32_t o = 0; o < k->t->n_out; o++) {
-        w[o] = z;
-        z += bench_components(k, &k->t->out[o]) * BENCH_LD;
-    }
-    if (!bench_call(k, k->out, "residual on random values"))
+            k->z[i][c] = k->in[i][c];
+    if (!bench_call(k, k->out, values_of(k)))
         return;
-    process_enter(k->p->d.name, k->t->name, "complex twin", -1);
-    status = k->t->residual_c(&k->b, in, w);
-    process_leave();
+    bench_enter(k, "complex twin");
+    status = k->t->residual_c(&k->b, (const pf_complex *const *)k->z, k->w);
+    if (!bench_left(k, "complex twin"))
+        return;
     if (status) {
         bench_line(k, 0, "%s  residual_c returned %d where residual returned 0; they must be one source",
                    k->t->name, status);
         return;
     }
     for (uint32_t o = 0; o < k->t->n_out; o++)
-        for (int c = 0; c < bench_components(k, &k->t->out[o]) * BENCH_LD; c++) {
-            double e = fabs(creal(w[o][c]) - k->out[o][c]);
-
-            worst = isnan(e) ? INFINITY : fmax(worst, e);
-            size = fmax(size, fabs(k->out[o][c]));
-        }
-    if (worst <= 1e-13 * size)
+        for (int c = 0; c < bench_components(k, &k->t->out[o]) * BENCH_LD; c++)
+            size = fmax(size, c % BENCH_LD < BENCH_N ? fabs(k->out[o][c]) : 0);
+    worst = twin_differs(k, size, where, sizeof where);
+    if (worst == 0)
         bench_line(k, 1, "%s  complex twin in %dD = residual", k->t->name, k->dim);
     else
-        bench_line(k, 0, "%s  residual_c differs from residual by %.2g (of %.2g); they must be one source",
-                   k->t->name, worst, size);
+        bench_line(k, 0, "%s  residual_c differs from residual by %.2g (of %.2g); they must be one source: %s",
+                   k->t->name, worst, size, where);
 }
 
-/* The metric that worked examples have: (4 1; 1 2), in 3D (4 1 0; 1 2 0; 0 0 1). */
-static void place_example_metric(bench *k)
+/* What a term keeps between calls must not show: with its own parameters again it gives what it gave. */
+static void test_memory(bench *k)
 {
-    static const double g[3][3] = {{4, 1, 0}, {1, 2, 0}, {0, 0, 1}};
+    const size_t bytes = k->t->params_bytes;
 
-    for (int i = 0; k->metric && i < k->dim * k->dim * BENCH_LD; i++)
-        k->metric[i] = g[i / BENCH_LD / k->dim][i / BENCH_LD % k->dim];
+    if (!k->t->n_param || k->captured || !bench_call(k, k->out, values_of(k)))
+        return;
+    memcpy(k->other_params, k->params, bytes);
+    for (uint32_t i = 0; i < k->t->n_param; i++)
+        if (k->t->param[i].type == PF_T_REAL && k->t->param[i].min >= k->t->param[i].max) {
+            double v = 1 + i;
+
+            bench_put_param(k, &k->t->param[i], &v);
+        }
+    /* whatever it says to these */
+    bench_enter(k, "residual with other parameters");
+    k->t->residual(&k->b, (const double *const *)k->in, k->again);
+    bench_left(k, "residual with other parameters");
+    memcpy(k->params, k->other_params, bytes);
+    if (!bench_call(k, k->again, values_of(k)))
+        return;
+    for (uint32_t o = 0; o < k->t->n_out; o++)
+        for (int i = 0; i < bench_components(k, &k->t->out[o]) * BENCH_LD; i++)
+            if (i % BENCH_LD < BENCH_N && memcmp(&k->out[o][i], &k->again[o][i], sizeof(double)) != 0) {
+                bench_line(k, 0,
+                           "%s  output \"%s\" depends on what the term was called with before: it keeps something "
+                           "between calls",
+                           k->t->name, k->t->out[o].name);
+                return;
+            }
 }
 
 void selftest_example(bench *k, const pf_example *e)
 {
     const double *in = e->in, *out = e->out, *params = e->params;
     double worst = 0, size = 0, got = 0, expected = 0;
-    char where[100] = "";
+    char where[160] = "";
 
     for (uint32_t i = 0; params && i < k->t->n_param; i++) {
         bench_put_param(k, &k->t->param[i], params);
         params += k->t->param[i].type == PF_T_VECTOR ? k->dim : 1;
     }
-    place_example_metric(k);
+    bench_example_points(k);
     for (uint32_t i = 0; i < k->t->n_in; i++)
         for (int c = 0; c < bench_components(k, &k->t->in[i]); c++, in++)
             for (int l = 0; l < BENCH_LD; l++)
                 k->in[i][c * BENCH_LD + l] = *in;
-    if (!bench_call(k, k->out, "residual of the worked example"))
+    if (!bench_init(k) || !bench_call(k, k->out, "residual of the worked example"))
         return;
     for (uint32_t o = 0; o < k->t->n_out; o++)
         for (int c = 0; c < bench_components(k, &k->t->out[o]); c++, out++) {
@@ -169,7 +219,7 @@ void selftest_example(bench *k, const pf_example *e)
                 worst = isnan(k->out[o][c * BENCH_LD]) ? INFINITY : fabs(k->out[o][c * BENCH_LD] - *out);
                 got = k->out[o][c * BENCH_LD];
                 expected = *out;
-                snprintf(where, sizeof where, "%s[%d]", k->t->out[o].name, c);
+                entry_name(&k->t->out[o], k->dim, c, where, sizeof where);
             }
         }
     if (worst <= e->tol * size)
@@ -187,7 +237,9 @@ int selftest_values(bench *k)
     if (k->s->failed > before)
         return 0;
     test_batches(k);
-    if (k->t->residual_c)
+    if (k->t->residual_c && k->s->failed == before)
         test_twin(k);
+    if (k->s->failed == before)
+        test_memory(k);
     return 1;
 }

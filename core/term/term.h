@@ -56,6 +56,13 @@ void registry_destroy(registry *r);
 int term_adopt(const pf_plugin *d, const char *path, arena *memory, term_plugin *out, error *err);
 
 int term_components(uint32_t shape, int dim);
+/* What tells component k of a field from the others: "", "x", "xy"; and a shape in words, "symmetric tensor". */
+const char *term_component(uint32_t shape, int n_comp, int k);
+const char *term_shape_name(uint32_t shape);
+int term_is_tensor(uint32_t shape);
+/* 1 if a mirror with this axis as its normal turns the sign of component k of a field: u_x, or T_xy, in the mirror
+ * x = 0.  On a plane of symmetry it is zero. */
+int term_turns_sign(uint32_t shape, int n_comp, int k, int axis);
 /* 1 if the slot holds a field of unknowns, of this instant or an earlier one. */
 int term_slot_field(const pf_slot *s);
 /* 1 if the slot is an unknown, so that a Jacobian block belongs to it; the same of a property too, by which a term
@@ -83,6 +90,11 @@ void term_defaults(const pf_term *t, void *params);
 
 enum term_derivative { TERM_AUTO, TERM_ANALYTIC, TERM_COMPLEX, TERM_FD };
 
+/* pf_term.init and done (host.c).  init: not 0 with why. */
+int term_start(const term_plugin *p, const pf_term *t, void *params, int dim, int n_body, int unsteady, char *why,
+               size_t n);
+void term_end(const term_plugin *p, const pf_term *t, void *params);
+
 /* Room that term_jacobian needs for ld lanes, in bytes. */
 size_t term_jacobian_room(const pf_term *t, int dim, uint32_t ld);
 /* 1 if the term has what this derivative comes from: a Jacobian by hand, a complex twin.  Differences and TERM_AUTO
@@ -102,6 +114,10 @@ typedef struct term_use {
     void *params;
     enum term_derivative how;
     const value *data[TERM_MAX_SLOTS]; /* for PF_DATA slots */
+    const value *inside;               /* acts where this is above 0; NULL: on all its points                 */
+    const char *label;                 /* `name` of the line, for messages and reports; NULL: it has none     */
+    int replaced;                      /* another term takes its place                                         */
+    const double *key[TERM_MAX_SLOTS]; /* for PF_BODY_KEY and PF_OTHER_KEY slots: [n_body][components] */
 } term_use;
 
 /* --- fields: the unknowns that plugins declare (fields.c) --- */

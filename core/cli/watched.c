@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A child process for the code of plugins.  Every call has a limit of its own, in time of the processor (a machine
+ * may be busy) and, for one that sleeps, by the clock. */
+#include "cli/watched.h"
+
+#include "cli/cli.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { CALL_SECONDS = 2, CALL_SECONDS_BY_CLOCK = 30, ALL_SECONDS = 240 };
+
+/* For the handler of the alarm. */
+static watched *here;
+
+static void on_slow(int number)
+{
+    (void)number;
+    here->slow = 1;
+    _exit(ERR_PLUGIN);
+}
+
+static void set_alarms(int busy, int by_clock)
+{
+    const struct itimerval of_processor = {.it_value = {.tv_sec = busy}},
+                           of_clock = {.it_value = {.tv_sec = by_clock}};
+
+    setitimer(ITIMER_VIRTUAL, &of_processor, NULL);
+    setitimer(ITIMER_REAL, &of_clock, NULL);
+}
+
+void watched_enter(watched *w, const char *subject, const char *what)
+{
+    if (what) {
+        snprintf(w->in, sizeof w->in, "%s, %s", subject, what);
+        set_alarms(CALL_SECONDS, CALL_SECONDS_BY_CLOCK);
+    } else {
+        set_alarms(0, 0);
+        *w->in = 0;
+    }
+}
+
+static void prepare(watched *w)
+{
+    const struct rlimit cpu = {ALL_SECONDS, ALL_SECONDS + 5};
+    const struct sigaction a = {.sa_handler = on_slow};
+    sigset_t set;
+
+    here = w;
+    cli_release_signals();
+    setrlimit(RLIMIT_CPU, &cpu);
+    sigaction(SIGALRM, &a, NULL);
+    sigaction(SIGVTALRM, &a, NULL);
+    sigemptyset(&set);
+    sigaddset(&set, SIGALRM);
+    sigaddset(&set, SIGVTALRM);
+    sigprocmask(SIG_UNBLOCK, &set, NULL);
+}
+
+/* How the child ended, in words. */
+static int judge(const watched *w, int status, const char *subject, error *err)
+{
+    const char *in = *w->in ? w->in : "between its calls";
+
+    if (WIFEXITED(status) && w->done)
+        return WEXITSTATUS(status);
+    if (w->slow)
+        return error_set(
+            err, ERR_PLUGIN,
+            "%s: inside %s: the call does not come back (more than %d s of computing); an endless loop?", subject,
+            in, CALL_SECONDS);
+    if (WIFEXITED(status))
+        return error_set(err, ERR_PLUGIN,
+                         "%s: inside %s: the plugin ended the whole process, with exit code %d; it must return",
+                         subject, in, WEXITSTATUS(status));
+    if (WTERMSIG(status) == SIGXCPU)
+        return error_set(err, ERR_PLUGIN, "%s: the test takes longer than %d s; the last call was inside %s",
+                         subject, ALL_SECONDS, in);
+    return error_set(err, ERR_PLUGIN, "%s: the test ended by signal %d (%s) inside %s", subject, WTERMSIG(status),
+                     strsignal(WTERMSIG(status)), in);
+}
+
+int watched_run(int (*work)(watched *w, void *arg, error *err), void *arg, const char *subject, watched *out,
+                error *err)
+{
+    watched *w = mmap(NULL, sizeof *w, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    int status = 0;
+    pid_t child;
+
+    if (w == MAP_FAILED)
+        return error_memory(err, "test", sizeof *w);
+    fflush(stdout);
+    child = fork();
+    if (child == 0) {
+        prepare(w);
+        status = work(w, arg, err);
+        if (status)
+            fprintf(stderr, "plugflow: %s\n", err->text);
+        fflush(stdout);
+        w->done = 1;
+        _exit(status);
+    }
+    *err->text = 0;
+    if (child < 0) {
+        munmap(w, sizeof *w);
+        return error_set(err, ERR_MEMORY, "%s: no process can be started for the test", subject);
+    }
+    waitpid(child, &status, 0);
+    status = judge(w, status, subject, err);
+    *out = *w;
+    munmap(w, sizeof *w);
+    return status;
+}
