@@ -36,17 +36,24 @@ const char *describe_who_shows(registry *r, const char *name)
     return NULL;
 }
 
-/* The output before this one that has the same name, in files of fields or in the same table; its term, or NULL. */
+/* Whether two lines that give integrals of the same name give the same column. */
+static int same_column(const term_use *a, const term_use *b)
+{
+    const char *x = a->label ? a->label : "", *y = b->label ? b->label : "";
+
+    return a->term->where == b->term->where && strcmp(x, y) == 0;
+}
+
+/* The term with an output before this one that has the same name, in files of fields or in the same table, or NULL.
+ * Lines of one term, each with its part of the domain, give one field together. */
 static const term_use *namesake(const description *d, int use, const pf_slot *slot)
 {
-    for (int i = 0; i <= use; i++)
+    for (int i = 0; i < use; i++)
         for (uint32_t o = 0; o < d->shown.use[i].term->n_out; o++) {
             const pf_slot *other = &d->shown.use[i].term->out[o];
 
-            if (other == slot)
-                return NULL;
             if (other->eval == slot->eval && strcmp(other->name, slot->name) == 0 &&
-                (slot->eval == PF_SHOW || d->shown.use[i].term->where == d->shown.use[use].term->where))
+                (slot->eval == PF_SHOW ? other != slot : same_column(&d->shown.use[i], &d->shown.use[use])))
                 return &d->shown.use[i];
         }
     return NULL;
@@ -64,34 +71,45 @@ static int add_field(description *d, const term_use *u, const pf_slot *slot, err
     return fields_add(&d->shown_fields, d->dim, &f, u->plugin->d.name, err);
 }
 
-static int add_use(description *d, int k, error *err)
+static void check_points(const description *d, const term_use *u, const case_block *b)
 {
-    const term_use *u = &d->shown.use[k];
-    const case_block *b = d->shown.block[k];
-    const pf_term *t = u->term;
+    const uint32_t where = u->term->where;
 
-    if (t->where >= PF_SOLID && t->where != PF_FACET && d->n_body == 0)
+    if (where >= PF_SOLID && where != PF_FACET && d->n_body == 0)
         case_wrong(d->c, b, NULL, "term \"%s\": %s.%s is about bodies, and the case has none", b->name,
-                   u->plugin->d.name, t->name);
-    for (uint32_t o = 0; o < t->n_out; o++) {
-        const pf_slot *slot = &t->out[o];
-        const term_use *other = namesake(d, k, slot);
-        const int field = slot->eval == PF_SHOW ? fields_find(&d->fields, slot->name) : -1;
+                   u->plugin->d.name, u->term->name);
+    else if (where == PF_PAIR && !describe_has(d, PF_PAIR))
+        case_wrong(d->c, b, NULL,
+                   "term \"%s\": %s.%s is about near pairs, which are looked for where a term acts on them; switch "
+                   "one on, as term \"contact.lubrication\" {}",
+                   b->name, u->plugin->d.name, u->term->name);
+}
 
-        if (other || field >= 0)
-            case_wrong(d->c, b, NULL, "term \"%s\": %s.%s shows \"%s\", and so does %s%s%s", b->name,
-                       u->plugin->d.name, t->name, slot->name,
-                       other ? other->plugin->d.name : "a field of the case", other ? "." : "",
-                       other ? other->term->name : "");
-        else if (slot->eval == PF_SHOW)
-            TRY(add_field(d, u, slot, err));
-    }
+static int add_slot(description *d, int k, const pf_slot *slot, error *err)
+{
+    const term_use *u = &d->shown.use[k], *other = namesake(d, k, slot);
+    const case_block *b = d->shown.block[k];
+
+    if (slot->eval == PF_SHOW && fields_find(&d->fields, slot->name) >= 0)
+        case_wrong(d->c, b, NULL, "term \"%s\": %s.%s shows \"%s\", and the case has a field of that name", b->name,
+                   u->plugin->d.name, u->term->name, slot->name);
+    else if (other)
+        case_wrong(d->c, b, NULL, "term \"%s\": %s.%s shows \"%s\", and so does %s.%s%s", b->name,
+                   u->plugin->d.name, u->term->name, slot->name, other->plugin->d.name, other->term->name,
+                   other->term == u->term ? "; give each line a name = \"...\" for its columns" : "");
+    else if (slot->eval == PF_SHOW)
+        return add_field(d, u, slot, err);
     return 0;
 }
 
 int describe_shown(description *d, error *err)
 {
-    for (int k = 0; k < d->shown.n; k++)
-        TRY(add_use(d, k, err));
+    for (int k = 0; k < d->shown.n; k++) {
+        const term_use *u = &d->shown.use[k];
+
+        check_points(d, u, d->shown.block[k]);
+        for (uint32_t o = 0; o < u->term->n_out; o++)
+            TRY(add_slot(d, k, &u->term->out[o], err));
+    }
     return 0;
 }

@@ -113,32 +113,49 @@ static int heat_flux(ARGUMENTS)
     return PF_OK;
 }
 
-/* The true pressure: a reduced one is without rho g.x. */
-static int mean_pressure(ARGUMENTS)
+/* The true pressure at lane i: a reduced one is without rho g.x. */
+static inline double true_pressure(const pf_batch *b, const double *p, uint32_t i)
 {
     const pf_fluid *f = b->params;
+    double sum = p[i];
 
+    for (uint32_t k = 0; f->reduced_pressure && k < b->dim; k++)
+        sum += f->density * f->gravity[k] * b->x[k * LD + i];
+    return sum;
+}
+
+static int mean_pressure(ARGUMENTS)
+{
     PF_LANES_OF (b, i) {
-        out[0][i] = in[0][i];
+        out[0][i] = true_pressure(b, in[0], i);
         out[1][i] = 1;
     }
-    for (uint32_t k = 0; f->reduced_pressure && k < b->dim; k++)
-        PF_LANES_OF (b, i)
-            out[0][i] += f->density * f->gravity[k] * b->x[k * LD + i];
     return PF_OK;
 }
 
-/* -(2 mu D - p) n; p NULL: without it */
-static void traction(const pf_batch *b, const double *grad_u, const double *p, double *restrict to)
+/* -2 mu D n */
+static void shear(const pf_batch *b, const double *grad_u, double *restrict to)
 {
     const pf_fluid *f = b->params;
 
     for (uint32_t a = 0; a < b->dim; a++) {
         PF_LANES_OF (b, i)
-            to[a * LD + i] = p ? p[i] * b->normal[a * LD + i] : 0;
+            to[a * LD + i] = 0;
         for (uint32_t k = 0; k < b->dim; k++)
             PF_LANES_OF (b, i)
                 to[a * LD + i] -= f->viscosity * twice_strain(b, grad_u, a, k, i) * b->normal[k * LD + i];
+    }
+}
+
+/* -(2 mu D - p) n */
+static void traction(const pf_batch *b, const double *grad_u, const double *p, double *restrict to)
+{
+    shear(b, grad_u, to);
+    PF_LANES_OF (b, i) {
+        const double pressure = true_pressure(b, p, i);
+
+        for (uint32_t a = 0; a < b->dim; a++)
+            to[a * LD + i] += pressure * b->normal[a * LD + i];
     }
 }
 
@@ -152,7 +169,7 @@ static int wall_shear(ARGUMENTS)
 {
     double *restrict t = out[0];
 
-    traction(b, in[0], NULL, t);
+    shear(b, in[0], t);
     PF_LANES_OF (b, i) {
         double normal = 0;
 

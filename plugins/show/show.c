@@ -42,6 +42,10 @@ typedef struct conductor {
         .name = NAME, .eval = PF_INTEGRAL, .shape = SHAPE, .unit = UNIT, .doc = DOC                                \
     }
 
+/* What makes a reduced pressure the true one. */
+#define TRUE_PRESSURE                                                                                              \
+    PF_NUMBER(pf_fluid, density, "kg/m^3", "mass per volume", .flags = PF_SHARED, PF_NOT_NEGATIVE),                \
+        PF_GRAVITY(pf_fluid), PF_REDUCED_PRESSURE(pf_fluid)
 #define VISCOUS PF_PARAMS(pf_fluid, PF_VISCOSITY(pf_fluid))
 
 static const double viscosity_3[] = {3}, density_2[] = {2};
@@ -115,9 +119,7 @@ static const pf_term term_mean_pressure = {
     PF_IN(PRESSURE),
     PF_OUT(INTEGRAL("pressure", PF_SCALAR, "N", "integral of the pressure, over the area it is the mean"),
            INTEGRAL("area", PF_SCALAR, "m^2", "area of the boundary")),
-    PF_PARAMS(pf_fluid,
-              PF_NUMBER(pf_fluid, density, "kg/m^3", "mass per volume", .flags = PF_SHARED, PF_NOT_NEGATIVE),
-              PF_GRAVITY(pf_fluid), PF_REDUCED_PRESSURE(pf_fluid)),
+    PF_PARAMS(pf_fluid, TRUE_PRESSURE),
 };
 
 static const pf_term term_wall_shear = {
@@ -135,7 +137,7 @@ static const pf_term term_wall_force = {
     .doc = "-(2\\mu D(u)-p\\,I)\\,n",
     PF_IN(VELOCITY_GRADIENT, PRESSURE),
     PF_OUT(INTEGRAL("wall_force", PF_VECTOR, "N", "force of the fluid on the boundary, by its traction")),
-    VISCOUS,
+    PF_PARAMS(pf_fluid, PF_VISCOSITY(pf_fluid), TRUE_PRESSURE),
 };
 
 static const pf_term term_heat_flux = {
@@ -157,7 +159,7 @@ static const pf_term term_surface_force = {
     PF_IN(VELOCITY_GRADIENT, PRESSURE),
     PF_OUT(INTEGRAL("surface_force", PF_VECTOR, "N", "force of the fluid on the body, by its traction"),
            INTEGRAL("surface_torque", PF_SPIN, "N m", "torque of the fluid on the body, by its traction")),
-    VISCOUS,
+    PF_PARAMS(pf_fluid, PF_VISCOSITY(pf_fluid), TRUE_PRESSURE),
 };
 
 static const pf_term term_surface_area = {
