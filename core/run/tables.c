@@ -310,7 +310,11 @@ int tables_add(run *r, double t, error *err)
     if (!status && o->n_probe)
         status = add_probes(r, t, row, err);
     if (!status)
+<<<<<<< HEAD
         status = showing_row(r, t, err);
+=======
+        status = problem_table_add(r, t, err);
+>>>>>>> main
     free(row);
     TRY(status);
     if (r->before_steps)
