@@ -298,15 +298,12 @@ int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int 
  * named. ERR_PLUGIN or ERR_CONVERGE (err->retry) if a term fails. */
 int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err);
 
-<<<<<<< HEAD
 /* Evaluates an assembly of shown terms; to s->shown.  ERR_PLUGIN if a term fails, or gives NaN or infinity at a
  * point that has a weight: it is named. */
 int assembly_show(assembly *a, const assembly_state *s, error *err);
-=======
 /* The memory that terms keep at the end of a step, of its solution; kept[space->kept.n_value] holds that of its
  * start, and is overwritten where a term keeps something.  Errors as assembly_run. */
 int assembly_keep(assembly *a, const assembly_state *s, double *kept, error *err);
->>>>>>> main
 
 void assembly_destroy(assembly *a);
 

@@ -26,7 +26,7 @@ typedef struct workspace {
     int32_t *id;            /* [n_q][8] */
     v8 *w, *x, *normal, *h; /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
     body_data body;
-    v8 *metric;             /* [dim*dim][n_q], see pf_batch; NULL: no class has it */
+    v8 *metric; /* [dim*dim][n_q], see pf_batch; NULL: no class has it */
     /* Where the class has a tensor rule: dxi/dx [dim*dim][n_q], of a batch of boxes only its diagonal, the same at
      * all points, in scale; room for numbers at points by reference derivatives, and of the stages. */
     int boxes;
@@ -148,11 +148,9 @@ int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, c
 void power_clear(assembly *a);
 /* The sums of all threads, in their order. */
 void power_sum(const assembly *a, assembly_power *power);
-<<<<<<< HEAD
 /* What shown terms gave at the points of a batch; not 0: NaN, see w->report.  Room beforehand (show.c). */
 int show_batch(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch, workspace *w);
 int show_begin(const assembly *a, assembly_shown *to, error *err);
-=======
 /* kept.c: prepares a class that has memory; values along moving paths, once per placement; of an input of a batch,
  * [n_comp][n_q]; at a point of a cell, along the path through it. */
 int kept_place(assembly *a, assembly_class *c, error *err);
@@ -167,7 +165,6 @@ void kept_along_cell(const assembly *a, const assembly_class *c, const assembly_
                      double *at);
 void kept_nearest(const assembly *a, const assembly_class *c, int64_t item, int n_comp, const double *v,
                   double *at);
->>>>>>> main
 /* inside.c.  Whether a term acts at any point of the batch; of n rows [ld] what is left where it does not: zero. */
 int inside_any(const assembly_class *c, const plan_use *p, const workspace *w);
 void inside_mask(const assembly_class *c, const plan_use *p, const workspace *w, double *rows, int n);

@@ -136,17 +136,13 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
             return err->code;
     }
     for (uint32_t o = 0; o < t->n_out; o++) {
-<<<<<<< HEAD
-        p->out[o] =
-            shows ? add_shown(c, s, &t->out[o], err) : find_basis(c, s, c->test, &c->n_test, &t->out[o], err);
-        if (p->out[o] < 0)
-=======
         const int keeps = t->out[o].eval == PF_STATE;
 
-        p->out[o] = keeps ? -1 : find_basis(c, s, c->test, &c->n_test, &t->out[o], err);
+        p->out[o] = keeps   ? -1
+                    : shows ? add_shown(c, s, &t->out[o], err)
+                            : find_basis(c, s, c->test, &c->n_test, &t->out[o], err);
         p->kept[o] = keeps ? find_input(c, s, &t->out[o], NULL, NULL, err) : -1;
         if (p->out[o] < 0 && p->kept[o] < 0)
->>>>>>> main
             return err->code;
         p->equations |= !keeps;
         out += (size_t)term_components(t->out[o].shape, dim);

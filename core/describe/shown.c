@@ -71,6 +71,14 @@ static int add_field(description *d, const term_use *u, const pf_slot *slot, err
     return fields_add(&d->shown_fields, d->dim, &f, u->plugin->d.name, err);
 }
 
+static int any_pairs(const description *d)
+{
+    for (int i = 0; i < d->n_use; i++)
+        if (d->use[i].where == PF_PAIR)
+            return 1;
+    return 0;
+}
+
 static void check_points(const description *d, const term_use *u, const case_block *b)
 {
     const uint32_t where = u->term->where;
@@ -78,7 +86,7 @@ static void check_points(const description *d, const term_use *u, const case_blo
     if (where >= PF_SOLID && where != PF_FACET && d->n_body == 0)
         case_wrong(d->c, b, NULL, "term \"%s\": %s.%s is about bodies, and the case has none", b->name,
                    u->plugin->d.name, u->term->name);
-    else if (where == PF_PAIR && !describe_has(d, PF_PAIR))
+    else if (where == PF_PAIR && !any_pairs(d))
         case_wrong(d->c, b, NULL,
                    "term \"%s\": %s.%s is about near pairs, which are looked for where a term acts on them; switch "
                    "one on, as term \"contact.lubrication\" {}",

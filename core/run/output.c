@@ -92,11 +92,8 @@ static int open_files(run *r, text *units, error *err)
     TRY(table_open(&r->forces, err));
     TRY(table_open(&r->probes, err));
     TRY(table_open(&r->particles, err));
-<<<<<<< HEAD
     TRY(table_open(&r->integrals, err));
-=======
     TRY(table_open(&r->values, err));
->>>>>>> main
     return write_units(r, units, err);
 }
 
@@ -202,11 +199,8 @@ void output_close(run *r)
     table_destroy(&r->forces);
     table_destroy(&r->probes);
     table_destroy(&r->particles);
-<<<<<<< HEAD
     table_destroy(&r->integrals);
-=======
     table_destroy(&r->values);
->>>>>>> main
     for (int i = 0; i < r->n_body_file; i++)
         free(r->body_file[i]);
     free(r->body_file);

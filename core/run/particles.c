@@ -23,37 +23,23 @@ enum { COLUMNS_2D = 14, COLUMNS_3D = 25, MOST_SHOWN = 192 };
 
 int particles_plan(run *r, error *err)
 {
-<<<<<<< HEAD
-    const int flat = r->p->description.dim == 2, n = flat ? COLUMNS_2D : COLUMNS_3D;
-    const char *column[COLUMNS_3D + MOST_SHOWN], *unit[MOST_SHOWN];
-    char path[4600], name[MOST_SHOWN][96];
-    int n_shown;
-
-    if (r->p->bodies.n == 0)
-        return 0;
-    memcpy(column, flat ? columns_2d : columns_3d, (size_t)n * sizeof *column);
-    n_shown = showing_body_columns(r, MOST_SHOWN, name, unit);
-    for (int i = 0; i < n_shown; i++)
-        column[n + i] = name[i];
-    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + n + n_shown, err);
-    snprintf(path, sizeof path, "%s/particles.csv", r->dir);
-    return table_create(&r->particles, path, column, n + n_shown, err);
-=======
-    char path[4600], name[OFF_MESH_MOST][OFF_MESH_NAME];
-    const char *column[COLUMNS_3D + OFF_MESH_MOST];
+    char path[4600], name[OFF_MESH_MOST][OFF_MESH_NAME], own[MOST_SHOWN][96];
+    const char *column[COLUMNS_3D + OFF_MESH_MOST + MOST_SHOWN], *unit[MOST_SHOWN];
     const int dim = r->p->description.dim, n = dim == 2 ? COLUMNS_2D : COLUMNS_3D;
-    int more;
+    int more, n_shown;
 
     if (r->p->bodies.n == 0)
         return 0;
-    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D + OFF_MESH_MOST, err);
+    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D + OFF_MESH_MOST + MOST_SHOWN, err);
     memcpy(column, dim == 2 ? columns_2d : columns_3d, (size_t)n * sizeof *column);
     more = off_mesh_columns(r, PF_ON_PARTICLE, name);
     for (int i = 0; i < more; i++)
         column[n + i] = name[i];
+    n_shown = showing_body_columns(r, MOST_SHOWN, own, unit);
+    for (int i = 0; i < n_shown; i++)
+        column[n + more + i] = own[i];
     snprintf(path, sizeof path, "%s/particles.csv", r->dir);
-    return table_create(&r->particles, path, column, n + more, err);
->>>>>>> main
+    return table_create(&r->particles, path, column, n + more + n_shown, err);
 }
 
 /* How many covered cells of all bodies share each node. */
@@ -131,11 +117,8 @@ int particles_write(run *r, double t, error *err)
         for (int i = 0; i < dim; i++)
             *at++ = r->before_steps ? NAN : u >= 0 ? -contact[u + i] : 0;
         *at++ = round(active[k]);
-<<<<<<< HEAD
+        at = off_mesh_values(r, PF_ON_PARTICLE, space_body_carrier(&p->space, k), at);
         TRY(showing_body_row(r, k, at, err));
-=======
-        off_mesh_values(r, PF_ON_PARTICLE, space_body_carrier(&p->space, k), at);
->>>>>>> main
         TRY(table_add(&r->particles, row, err));
     }
     return 0;

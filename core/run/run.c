@@ -107,11 +107,7 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
 
     memset(result, 0, sizeof *result);
     result->status = "ok";
-<<<<<<< HEAD
-    r.forces.fd = r.probes.fd = r.particles.fd = r.integrals.fd = -1;
-=======
-    r.forces.fd = r.probes.fd = r.particles.fd = r.values.fd = -1;
->>>>>>> main
+    r.forces.fd = r.probes.fd = r.particles.fd = r.values.fd = r.integrals.fd = -1;
     status = prepare(&r, err);
     if (!status) {
         status = p->description.time.unsteady ? unsteady(&r, stop, err) : run_steady(&r, stop, err);
