@@ -38,8 +38,8 @@ static void store(const assembly *a, const assembly_class *c, const assembly_sta
             v[i] = out[i][l];
         if (!c->kept_weight)
             continue;
-        kept_along_cell(a, c, s, f, c->cell[item], at);
-        kept_nearest(a, c, item, n_comp, v, at);
+        kept_along_cell(a, c, s, f, item, at);
+        kept_nearest(a, c, item, NULL, n_comp, v, at);
         memcpy(kept + kept_at(k, f, c->cell[item]), at, (size_t)(n_comp * k->rule.n) * sizeof *at);
     }
 }

@@ -42,6 +42,7 @@ static void read_fields(description *d, reader *r)
     for (int f = 0; status <= 0 && f < d->fields.n; f++)
         if (d->fields.f[f].support == PF_ON_MESH)
             o->field[o->n_field++] = f;
+    o->kept = status <= 0 ? ~0u : 0;
     for (int i = 0; status > 0 && i < n; i++) {
         int f = fields_find(&d->fields, list[i]), twice = 0;
 
@@ -49,6 +50,8 @@ static void read_fields(description *d, reader *r)
             twice |= strcmp(list[k], list[i]) == 0;
         if (twice)
             case_wrong(d->c, r->b, "fields", "output: fields: \"%s\" stands there twice", list[i]);
+        else if (fields_find(&d->kept, list[i]) >= 0)
+            o->kept |= 1u << fields_find(&d->kept, list[i]);
         else if (f >= 0 && d->fields.f[f].support == PF_ON_MESH)
             o->field[o->n_field++] = f;
         else

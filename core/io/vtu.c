@@ -76,7 +76,7 @@ static void nodal(const space *s, int f, const double *x, const vtu_bodies *bodi
 typedef struct grid_file {
     text head;
     int n;
-    block b[SPACE_MAX_FIELDS + 5];
+    block b[3 * SPACE_MAX_FIELDS + 5];
     uint64_t offset; /* of the next block */
 } grid_file;
 
@@ -154,6 +154,24 @@ static int add_fields(grid_file *g, const space *s, const int *fields, int n_fie
     return 0;
 }
 
+static int add_cells(grid_file *g, const mesh *m, const vtu_cells *cells, arena *a, error *err)
+{
+    text_add(&g->head, "<CellData>\n");
+    for (int i = 0; i < cells->n; i++) {
+        const field_spec *f = cells->field[i];
+        int of[VALUE_MAX], width = file_components(f, m->dim, of);
+        double *values;
+
+        ARENA_NEW(a, values, m->n_cell * width, err);
+        for (int64_t e = 0; e < m->n_cell; e++)
+            for (int k = 0; k < width; k++)
+                values[e * width + k] = of[k] < 0 ? 0 : cells->value[i][e * f->n_comp + of[k]];
+        add_array(g, "Float64", f->name, f->unit, width, values, m->n_cell * width * 8);
+    }
+    text_add(&g->head, "</CellData>\n");
+    return 0;
+}
+
 static int put_together(const char *path, const grid_file *g, arena *a, error *err)
 {
     static const char tail[] = "\n</AppendedData>\n</VTKFile>\n";
@@ -174,7 +192,7 @@ static int put_together(const char *path, const grid_file *g, arena *a, error *e
 }
 
 int vtu_write(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
-              const vtu_bodies *bodies, error *err)
+              const vtu_bodies *bodies, const vtu_cells *cells, error *err)
 {
     grid_file g = {0};
     arena a = {0};
@@ -192,6 +210,8 @@ int vtu_write(const char *path, const space *s, const int *fields, int n_field, 
     status = add_mesh(&g, s->mesh, &a, err);
     if (!status)
         status = add_fields(&g, s, fields, n_field, x, bodies, &a, err);
+    if (!status && cells && cells->n)
+        status = add_cells(&g, s->mesh, cells, &a, err);
     text_add(&g.head, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
     if (!status)
         status = put_together(path, &g, &a, err);

@@ -12,12 +12,20 @@ typedef struct vtu_bodies {
     uint32_t empty;      /* bit f: field f of the space has no value in bodies, NaN in the file */
 } vtu_bodies;
 
+/* Fields with one value a cell. */
+typedef struct vtu_cells {
+    int n;
+    const field_spec *field[2 * SPACE_MAX_FIELDS];
+    const double *value[2 * SPACE_MAX_FIELDS]; /* [n_cell][n_comp] */
+} vtu_cells;
+
 /* Writes fields[n_field] of the space (order 1 ones are interpolated to all nodes, exactly) with the unknowns
  * x[n_dof] at time t; NAN: a steady state.  bodies: the point array "body" is written, too, and fields that are
- * empty in bodies have no value there; of all others x must hold what is to stand there.  NULL: no bodies.
+ * empty in bodies have no value there; of all others x must hold what is to stand there.  NULL: no bodies.  cells:
+ * NULL, there are none.
  * ERR_IO, ERR_MEMORY; the file is then as it was. */
 int vtu_write(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
-              const vtu_bodies *bodies, error *err);
+              const vtu_bodies *bodies, const vtu_cells *cells, error *err);
 /* The list of files with their times. */
 int vtu_write_pvd(const char *path, const char *const *file, const double *t, int n, error *err);
 

@@ -64,6 +64,8 @@ static int write_units(const run *r, text *units, error *err)
     for (int f = 0; f < r->p->space.n_field; f++)
         text_add(units, "%s\n  \"%s\": \"%s\"", units->n > 1 ? "," : "", r->p->space.field[f].name,
                  r->p->space.field[f].unit);
+    for (int f = 0; f < r->p->space.kept.n; f++)
+        text_add(units, ",\n  \"%s\": \"%s\"", r->p->space.kept.field[f].name, r->p->space.kept.field[f].unit);
     text_add(units, "\n}\n");
     snprintf(path, sizeof path, "%s/units.json", r->dir);
     return units->failed ? error_memory(err, path, 0) : file_write(path, units->s, units->n, err);
@@ -135,6 +137,9 @@ int output_fields(run *r, double t, error *err)
 {
     const output_spec *out = &r->p->description.output;
     vtu_bodies bodies = {.body = r->body_of_node, .empty = r->empty};
+    vtu_cells cells;
+    arena memory = {0};
+    int status;
     char path[4600], name[40];
     double start = clock_seconds();
 
@@ -145,8 +150,13 @@ int output_fields(run *r, double t, error *err)
     }
     snprintf(name, sizeof name, "fields_%05d.vtu", r->n_file);
     snprintf(path, sizeof path, "%s/%s", r->dir, name);
-    TRY(vtu_write(path, &r->p->space, out->field, out->n_field, r->in_file ? r->in_file : r->shown,
-                  r->p->description.time.unsteady ? t : NAN, r->body_of_node ? &bodies : NULL, err));
+    status = cell_fields(r, &cells, &memory, err);
+    if (!status)
+        status =
+            vtu_write(path, &r->p->space, out->field, out->n_field, r->in_file ? r->in_file : r->shown,
+                      r->p->description.time.unsteady ? t : NAN, r->body_of_node ? &bodies : NULL, &cells, err);
+    arena_free(&memory);
+    TRY(status);
     r->file[r->n_file] = strdup(name);
     if (!r->file[r->n_file])
         return error_memory(err, "list of files", 0);

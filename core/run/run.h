@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "io/file.h"
+#include "io/vtu.h"
 #include "problem/problem.h"
 
 #include <signal.h>
@@ -161,5 +162,8 @@ int norms_mean(const run *r, int f, double *mean, error *err);
 int results_expect(run *r, error *err);
 /* After it: calls it and leaves JSON in r->results (results_call). */
 int results_evaluate(run *r, error *err);
+
+/* Fields with one value a cell as files have them (cell_fields.c). */
+int cell_fields(const run *r, vtu_cells *to, arena *memory, error *err);
 
 #endif
