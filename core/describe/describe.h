@@ -230,6 +230,8 @@ int describe_instance(description *d, reader *own, const value **inside, const c
 int describe_check_twice(description *d, const reader *own, const term_use *u);
 /* Marks the terms that others replace; takes them out. */
 void describe_replace(description *d, registry *r);
+/* surfaces.c: marks terms at surfaces of bodies that the case has no use for. */
+void describe_surfaces(description *d);
 void describe_leave_out(description *d);
 /* Memory of the terms that are on (kept.c). */
 int describe_kept(description *d, error *err);
