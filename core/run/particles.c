@@ -22,16 +22,17 @@ enum { COLUMNS_2D = 14, COLUMNS_3D = 25 };
 
 int particles_plan(run *r, error *err)
 {
-    char path[4600], name[OFF_MESH_MOST][OFF_MESH_NAME];
-    const char *column[COLUMNS_3D + OFF_MESH_MOST];
+    char path[4600], name[2 * OFF_MESH_MOST][OFF_MESH_NAME];
+    const char *column[COLUMNS_3D + 2 * OFF_MESH_MOST];
     const int dim = r->p->description.dim, n = dim == 2 ? COLUMNS_2D : COLUMNS_3D;
     int more;
 
     if (r->p->bodies.n == 0)
         return 0;
-    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D + OFF_MESH_MOST, err);
+    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D + 2 * OFF_MESH_MOST, err);
     memcpy(column, dim == 2 ? columns_2d : columns_3d, (size_t)n * sizeof *column);
     more = off_mesh_columns(r, PF_ON_PARTICLE, name);
+    more += kept_columns(r, name + more);
     for (int i = 0; i < more; i++)
         column[n + i] = name[i];
     snprintf(path, sizeof path, "%s/particles.csv", r->dir);
@@ -113,7 +114,8 @@ int particles_write(run *r, double t, error *err)
         for (int i = 0; i < dim; i++)
             *at++ = r->before_steps ? NAN : u >= 0 ? -contact[u + i] : 0;
         *at++ = round(active[k]);
-        off_mesh_values(r, PF_ON_PARTICLE, space_body_carrier(&p->space, k), at);
+        at = off_mesh_values(r, PF_ON_PARTICLE, space_body_carrier(&p->space, k), at);
+        kept_of_body(r, k, at);
         TRY(table_add(&r->particles, row, err));
     }
     return 0;

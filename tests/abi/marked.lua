@@ -19,8 +19,9 @@ term "momentum" {}
 particulate "sharp"
 term "memory.mark" {}
 term "memory.brand" {}
+term "memory.odometer" {}
 boundary "*" { u = {0, 0} }
-initial { mark = mark, brand = mark }
+initial { mark = mark, brand = mark, way = 5 }
 particle { shape = kind == "disk" and disk { radius = R } or ellipse { a = R, b = 0.8 * R }, density = 1, at = {x0, y0},
            motion = "prescribed", velocity = W, spin = spin }
 time { scheme = "bdf1", step = T / steps, stop = T }

@@ -70,6 +70,26 @@ TERM(brand, PF_SOLID, IN(STATE(old_brand, brand, SCALAR)), OUT(STATE(brand, bran
         brand[i] = old_brand[i];
 }
 
+/* of a body: the way that it has gone, and the largest force of the fluid up to the last step */
+TERM(odometer, PF_PARTICLE, IN(U, STATE(old_way, way, SCALAR), STATE(old_most, most, SCALAR)),
+     OUT(STATE(way, way, SCALAR), STATE(most, most, SCALAR)), PARAMS(), .flags = PF_OPTIONAL,
+     .doc = "\\dot s=|U|,\\ \\max|F|", .cite = "definition")
+{
+    LANES (i) {
+        NUM speed2 = 1e-300;
+        double force2 = 0;
+
+        EACH (a) {
+            speed2 += U[a][i] * U[a][i];
+            force2 += AT(b->fluid_force, a) * AT(b->fluid_force, a);
+        }
+        way[i] = old_way[i] + b->dt * sqrt(speed2);
+        most[i] = max(old_most[i], sqrt(force2));
+    }
+}
+
+#define PF_SHAPE_way       SCALAR
+#define PF_SHAPE_most      SCALAR
 #define PF_SHAPE_strain    SCALAR
 #define PF_SHAPE_total     SYMMETRIC
 #define PF_SHAPE_structure SCALAR
@@ -78,9 +98,11 @@ TERM(brand, PF_SOLID, IN(STATE(old_brand, brand, SCALAR)), OUT(STATE(brand, bran
 #define PF_SHAPE_brand     SCALAR
 #define AT_POINTS          .support = PF_AT_POINTS
 PLUGIN(memory, "what fluids remember",
-       FIELDS(u, FIELD(strain, "1", "strain that has added up", AT_POINTS),
+       FIELDS(u, U, FIELD(strain, "1", "strain that has added up", AT_POINTS),
               FIELD(total, "1", "the same of the tensor", AT_POINTS), FIELD(structure, "1", "structure", AT_POINTS),
               FIELD(peak, "1/s", "largest rate of shear so far", AT_POINTS), FIELD(mark, "1", "mark", AT_POINTS),
+              FIELD(way, "m", "way that it has gone", .support = PF_KEPT_BY_PARTICLE),
+              FIELD(most, "N", "largest force so far", .support = PF_KEPT_BY_PARTICLE),
               FIELD(brand, "1", "mark of bodies", AT_POINTS)),
-       TERMS(strain, structure, peak, mark, brand), .author = "plugflow")
+       TERMS(strain, structure, peak, mark, brand, odometer), .author = "plugflow")
 #include PF_TWIN

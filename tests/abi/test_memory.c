@@ -110,6 +110,28 @@ static void marks_go_along_with_bodies(void **state)
     }
 }
 
+/* A body keeps the way that it has gone, from 5 on, and the largest force up to the step before. */
+static void a_body_has_a_memory_of_its_own(void **state)
+{
+    const double way = 0.2 * sqrt(0.9 * 0.9 + 0.4 * 0.4);
+    double *fx, *fy, most = 0;
+    char path[500];
+    int n;
+
+    (void)state;
+    run("marked", "", "odometer");
+    assert_near(last("odometer", "particles", "way"), 5 + way, 1e-10);
+    snprintf(path, sizeof path, "%s/odometer/particles.csv", scratch());
+    n = step_column(path, "fx", &fx);
+    assert_int_equal(step_column(path, "fy", &fy), n);
+    for (int i = 0; i < n - 1; i++)
+        most = fmax(most, hypot(fx[i], fy[i]));
+    assert_true(most > 0);
+    assert_near(last("odometer", "particles", "most"), most, 1e-9 * most);
+    free(fx);
+    free(fy);
+}
+
 static void a_steady_case_has_no_memory(void **state)
 {
     char text[1000];
@@ -131,6 +153,7 @@ int main(void)
         cmocka_unit_test(a_step_that_is_repeated_leaves_nothing),
         cmocka_unit_test(the_largest_rate_so_far_is_kept),
         cmocka_unit_test(marks_go_along_with_bodies),
+        cmocka_unit_test(a_body_has_a_memory_of_its_own),
         cmocka_unit_test(a_steady_case_has_no_memory),
     };
 
