@@ -144,6 +144,8 @@ static int add_fields(grid_file *g, const space *s, const int *fields, int n_fie
         int of[VALUE_MAX], width = file_components(f, s->mesh->dim, of);
         double *values;
 
+        if (space_of_cells(f)) /* see vtu_cells */
+            continue;
         ARENA_NEW(a, values, n * width, err);
         nodal(s, fields[i], x, bodies, values);
         add_array(g, "Float64", f->name, f->unit, width, values, n * width * 8);
