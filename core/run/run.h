@@ -64,8 +64,10 @@ typedef struct run {
     double *x;                               /* [n_dof] the solution, free fields with zero mean */
     double taken;                            /* its time: of the last step of the run, s */
     table forces, probes, particles, values; /* values: problem.csv */
-    double *body_row;                        /* room for a row of particles.csv, and a count a body */
-    float *node_share;                       /* [n_node] */
+    table integrals;
+    struct showing *showing; /* NULL: no term shows anything (showing.h) */
+    double *body_row;        /* room for a row of particles.csv, and a count a body */
+    float *node_share;       /* [n_node] */
     int n_body_file;
     char **body_file;
     int64_t n_time, time_room;
