@@ -149,6 +149,7 @@ static int evaluate(run *r, error *err)
                          .x = r->x,
                          .dot = s->dot,
                          .old = r->x,
+                         .kept = p->state.kept,
                          .bodies = problem_points(p)};
 
     if (s->evaluated)
