@@ -24,7 +24,8 @@ static int gather_columns(const run *r, arena *memory, results_input *in, error 
     int n_body = r->p->bodies.n;
 
     in->t = (results_column){.first = r->time, .stride = 1, .n = (long)r->n_time};
-    ARENA_NEW(memory, in->column, r->forces.n_column + r->probes.n_column + r->values.n_column + n_body * bodies->n_column + 1, err);
+    ARENA_NEW(memory, in->column,
+              r->forces.n_column + r->probes.n_column + r->values.n_column + n_body * bodies->n_column + 1, err);
     for (int k = 0; k < 3; k++)
         for (int c = 1; c < plain[k]->n_column; c++)
             in->column[in->n_column++] = column_of(r, plain[k], c, plain[k]->column[c], 0, 1);
