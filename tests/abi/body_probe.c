@@ -215,6 +215,47 @@ static const pf_term cells = {TERM(cells),
                               .flags = PF_OPTIONAL | PF_WALL_DISTANCE | PF_LINEAR,
                               PF_IN({"s", "s", PF_VALUE, PF_SCALAR}),
                               PF_OUT({"to", "s", PF_VALUE, PF_SCALAR})};
+/* theta' = 1; mean = the mean of theta */
+static int turning(const pf_batch *b, const double *const *in, double *const *out)
+{
+    for (uint32_t i = 0; i < b->ld; i++) {
+        out[0][i] = in[1][i] - 1;
+        out[1][i] = in[2][i] - in[0][i];
+    }
+    return PF_OK;
+}
+
+static int turning_jacobian(const pf_batch *b, const double *const *in, double *const *jac)
+{
+    (void)in;
+    for (uint32_t i = 0; i < b->ld; i++)
+        jac[1][i] = jac[5][i] = 1, jac[3][i] = -1;
+    return PF_OK;
+}
+
+/* felt = what the fluid did in the last step */
+static int feeling(const pf_batch *b, const double *const *in, double *const *out)
+{
+    for (uint32_t a = 0; a < b->dim; a++)
+        for (uint32_t i = 0; i < b->ld; i++)
+            out[0][a * b->ld + i] = in[0][a * b->ld + i] - b->fluid_force[a * b->ld + i];
+    return PF_OK;
+}
+
+static const pf_term turns = {TERM(turns),
+                              .residual = turning,
+                              .jacobian = turning_jacobian,
+                              .where = PF_PARTICLE,
+                              .flags = PF_OPTIONAL | PF_LINEAR,
+                              PF_IN({"theta", "theta", PF_VALUE, PF_SPIN}, {"theta_t", "theta", PF_DOT, PF_SPIN},
+                                    {"mean", "mean", PF_VALUE, PF_SCALAR}),
+                              PF_OUT({"eta", "theta", PF_VALUE, PF_SPIN}, {"to", "mean", PF_VALUE, PF_SCALAR})};
+static const pf_term feels = {TERM(feels),
+                              .residual = feeling,
+                              .where = PF_PARTICLE,
+                              .flags = PF_OPTIONAL | PF_LINEAR,
+                              PF_IN({"felt", "felt", PF_VALUE, PF_VECTOR}),
+                              PF_OUT({"to", "felt", PF_VALUE, PF_VECTOR})};
 static const pf_term plane = {TERM(plane), .residual = count, .where = PF_PARTICLE,
                               .flags = PF_OPTIONAL | PF_ONLY_2D, PF_OUT(A("to", PF_VALUE))};
 
@@ -227,8 +268,12 @@ static const pf_plugin body_probe = {
     .license = "GPL-3.0-or-later",
     .doc = "what terms read of bodies",
     PF_FIELDS({.name = "a", .unit = "1", .doc = "a number", .shape = PF_SCALAR, .support = PF_ON_PARTICLE},
+              {.name = "theta", .unit = "rad", .doc = "angle", .shape = PF_SPIN, .support = PF_ON_PARTICLE},
+              {.name = "felt", .unit = "N", .doc = "force", .shape = PF_VECTOR, .support = PF_ON_PARTICLE},
+              {.name = "mean", .unit = "1", .doc = "of a", .shape = PF_SCALAR, .support = PF_ON_PROBLEM},
               {.name = "s", .unit = "m", .doc = "distance", .shape = PF_SCALAR, .order = 1},
               {.name = "c", .unit = "1", .doc = "another", .shape = PF_SCALAR, .support = PF_ON_PARTICLE}),
-    PF_TERMS(&body, &solid, &surface, &first, &other, &pair, &hold, &within, &beyond, &cells, &plane),
+    PF_TERMS(&body, &solid, &surface, &first, &other, &pair, &hold, &within, &beyond, &cells, &turns, &feels,
+             &plane),
 };
 PF_ENTRY(body_probe)

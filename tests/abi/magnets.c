@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Magnets in a plane, lines of dipoles: each has a moment of its own, in its own axes, and turns in the other's
- * field; a spring holds them.  Per length, with n from the other to the first, s = strength / r^2,
+ * field.  Per length, with n from the other to the first, s = strength / r^2,
  *
- *     T1 = m1 x B2,   B2 = s (2 n (n.m2) - m2),   F1 = 2 s / r ((n.m2) m1 + (n.m1) m2 + (m1.m2) n - 4 (n.m1)(n.m2)
- * n) */
+ *     T1 = m1 x B2,   B2 = s (2 n (n.m2) - m2),
+ *     F1 = 2 s / r ((n.m2) m1 + (n.m1) m2 + (m1.m2) n - 4 (n.m1)(n.m2) n) */
 #include <plugflow/fluid.h>
 
 #include <math.h>

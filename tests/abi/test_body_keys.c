@@ -123,6 +123,61 @@ static void a_trap_pulls_with_what_its_body_is_away(void **state)
     free(force);
 }
 
+/* theta' = 1 from what initial{} says at the centre, or the body itself; it comes before the bodies' own spin. */
+static void fields_of_bodies_start_and_are_shown(void **state)
+{
+    double *theta, *mean, *x;
+    int n;
+
+    (void)state;
+    assert_ran(
+        plugflow("run %s --quiet --out %s/run",
+                 put_file("theta.lua",
+                          "mesh { box = {{0, 0}, {1.5, 1}}, cells = {18, 12} }\n"
+                          "fluid { density = 1, viscosity = 1, gravity = {0, -10} }\n"
+                          "term 'body_probe.turns' {}\nterm 'body_probe.feels' {}\n"
+                          "term 'continuity' {}\nterm 'momentum' {}\nparticulate 'sharp'\n"
+                          "boundary '*' { u = {0, 0} }\ninitial { theta = function(x, y) return 10 * x end }\n"
+                          "particle { shape = disk { radius = 0.15 }, density = 2, at = {0.5, 0.5} }\n"
+                          "particle { shape = disk { radius = 0.15 }, density = 3, at = {1, 0.5}, theta = 0.25 }\n"
+                          "time { scheme = 'bdf2', step = 0.01, stop = 0.05 }\noutput { every = 0.05 }\n"
+                          "results(function(r) return { mean = r.last.mean, theta = r.last['p0.theta'],\n"
+                          "  first = r.series['p1.theta'][1] } end)\n"),
+                 scratch()),
+        0, NULL);
+    assert_between(summary("run", "results.theta"), 5.05 - 1e-12, 5.05 + 1e-12);
+    assert_between(summary("run", "results.first"), 0.26 - 1e-12, 0.26 + 1e-12);
+    assert_between(summary("run", "results.mean"), 2.675 - 1e-12, 2.675 + 1e-12);
+    n = csv_column(in_run("particles.csv"), "theta", &theta);
+    assert_int_equal(n, 12);
+    assert_true(theta[0] == 5 && theta[1] == 0.25);
+    n = csv_column(in_run("problem.csv"), "mean", &mean);
+    assert_int_equal(n, 6);
+    assert_int_equal(csv_column(in_run("particles.csv"), "omega", &x), 12);
+    assert_between(fabs(x[11]), 0, 0.1); /* theta is not taken for it */
+    assert_ran(shell("tr '\\n' ' ' < %s", in_run("particles_00001.vtp")), 0,
+               "Name=\"theta\" NumberOfComponents=\"1\" format=\"ascii\"> 5.05 0.3 ",
+               "Name=\"felt\" NumberOfComponents=\"2\"");
+    free(theta);
+    free(mean);
+    free(x);
+}
+
+/* What a term reads at a step is what particles.csv says of the step before. */
+static void bodies_feel_what_the_fluid_did_last(void **state)
+{
+    double *felt, *force;
+
+    (void)state;
+    assert_int_equal(csv_column(in_run("particles.csv"), "felt_y", &felt), 12);
+    assert_int_equal(csv_column(in_run("particles.csv"), "fy", &force), 12);
+    for (int i = 4; i < 12; i++)
+        assert_between(felt[i] - force[i - 2], -1e-12, 1e-12);
+    assert_between(felt[11], 0.1, 10); /* drag and lift under water: of its weight */
+    free(felt);
+    free(force);
+}
+
 int main(void)
 {
     char path[2000];
@@ -134,6 +189,8 @@ int main(void)
         cmocka_unit_test(terms_of_another_dimension_are_refused),
         cmocka_unit_test(torques_of_magnets_are_those_of_the_formula),
         cmocka_unit_test(a_trap_pulls_with_what_its_body_is_away),
+        cmocka_unit_test(fields_of_bodies_start_and_are_shown),
+        cmocka_unit_test(bodies_feel_what_the_fluid_did_last),
     };
 
     snprintf(path, sizeof path, "%s:%s", getenv("PLUGFLOW_PLUGIN_PATH"), getenv("PLUGFLOW_BROKEN_DIR"));
