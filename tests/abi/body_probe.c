@@ -225,14 +225,6 @@ static int turning(const pf_batch *b, const double *const *in, double *const *ou
     return PF_OK;
 }
 
-static int turning_jacobian(const pf_batch *b, const double *const *in, double *const *jac)
-{
-    (void)in;
-    for (uint32_t i = 0; i < b->ld; i++)
-        jac[1][i] = jac[5][i] = 1, jac[3][i] = -1;
-    return PF_OK;
-}
-
 /* felt = what the fluid did in the last step */
 static int feeling(const pf_batch *b, const double *const *in, double *const *out)
 {
@@ -244,7 +236,6 @@ static int feeling(const pf_batch *b, const double *const *in, double *const *ou
 
 static const pf_term turns = {TERM(turns),
                               .residual = turning,
-                              .jacobian = turning_jacobian,
                               .where = PF_PARTICLE,
                               .flags = PF_OPTIONAL | PF_LINEAR,
                               PF_IN({"theta", "theta", PF_VALUE, PF_SPIN}, {"theta_t", "theta", PF_DOT, PF_SPIN},
