@@ -8,8 +8,9 @@
 
 /* Which nodes lie in rigid bodies, where there is no fluid. */
 typedef struct vtu_bodies {
-    const int32_t *body; /* [n_node] number of the body that holds the node, -1: fluid          */
-    uint32_t empty;      /* bit f: field f of the space has no value in bodies, NaN in the file */
+    const int32_t *body;    /* [n_node] number of the body that holds the node, -1: fluid          */
+    uint32_t empty;         /* bit f: field f of the space has no value in bodies, NaN in the file */
+    uint32_t empty_outside; /* ... has none outside of them */
 } vtu_bodies;
 
 /* Fields with one value a cell. */

@@ -149,7 +149,7 @@ static int room_for_file(run *r, error *err)
 int output_fields(run *r, double t, error *err)
 {
     const output_spec *out = &r->p->description.output;
-    vtu_bodies bodies = {.body = r->body_of_node, .empty = r->empty};
+    vtu_bodies bodies = {.body = r->body_of_node, .empty = r->empty, .empty_outside = r->empty_outside};
     vtu_cells cells;
     arena memory = {0};
     int status;

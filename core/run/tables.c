@@ -259,8 +259,7 @@ static int add_probes(run *r, double t, double *row, error *err)
             if (!output_has_columns(&p->space.field[f]))
                 continue;
             locate_value(&p->space, &r->probe_at[i], f, r->shown, at, NULL);
-            if (in)
-                inside_value(r, in, f, o->probe[i].x, at);
+            inside_value(r, in, f, o->probe[i].x, at);
             at += p->space.field[f].n_comp;
         }
         for (int f = 0; f < n_shown; at += shown[f++].n_comp)
