@@ -344,6 +344,7 @@ int describe_terms(description *d, registry *r, error *err)
         TRY(read_keys(d, &fluid, &line[k], err));
     describe_leave_out(d);
     describe_unshared_keys(d, &fluid);
+    TRY(describe_kept(d, err));
     TRY(collect_fields(d, r, err));
     if (!d->incomplete)
         reader_close(&fluid);

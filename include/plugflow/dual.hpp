@@ -191,8 +191,8 @@ inline dual min(dual x, dual y)
  */
 template <class num> class rows
 {
-    num *row;
-    std::size_t ld, dim;
+    num *__restrict row;
+    const std::size_t ld, dim;
 
   public:
     rows(const pf_batch &b, num *first) : row(first), ld(b.ld), dim(b.dim)
@@ -212,15 +212,23 @@ template <class num> class rows
     }
 };
 
+/* Parameters are copied, as numbers on the stack are changed by no output, and the point function is there twice,
+ * so that loops over directions are unrolled. */
+template <class T, class num> int at_points(const pf_batch *b, const num *const *in, num *const *out)
+{
+    const T t = *static_cast<const T *>(b->params);
+
+    return b->dim == 2 ? t.point(*b, in, out) : b->dim == 3 ? t.point(*b, in, out) : PF_FAIL;
+}
+
 template <class T> int residual(const pf_batch *b, const double *const *in, double *const *out)
 {
-    return static_cast<const T *>(b->params)->point(*b, in, out);
+    return at_points<T>(b, in, out);
 }
 
 template <class T> int twin(const pf_batch *b, const pf_complex *const *in, pf_complex *const *out)
 {
-    return static_cast<const T *>(b->params)->point(*b, reinterpret_cast<const dual *const *>(in),
-                                                    reinterpret_cast<dual *const *>(out));
+    return at_points<T>(b, reinterpret_cast<const dual *const *>(in), reinterpret_cast<dual *const *>(out));
 }
 
 /* A term whose texts are to be filled in: doc, cite; and flags, examples, check, ... where it has them. */

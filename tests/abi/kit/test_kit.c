@@ -58,6 +58,13 @@ static void a_term_in_cpp_is_written_once(void **state)
                "ok     d R_u / d u");
 }
 
+static void terms_of_bodies_pairs_and_boundaries_are_sound(void **state)
+{
+    (void)state;
+    assert_ran(test_of("mag"), 0, "dipole", "torque", "0 failed");
+    assert_ran(test_of("lab"), 0, "marangoni", "oldroyd", "0 failed");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -65,6 +72,7 @@ int main(void)
         cmocka_unit_test(a_law_of_viscosity_is_sound),
         cmocka_unit_test(the_slots_and_keys_are_those_of_the_source),
         cmocka_unit_test(a_power_law_channel_is_exact),
+        cmocka_unit_test(terms_of_bodies_pairs_and_boundaries_are_sound),
         cmocka_unit_test(a_term_in_cpp_is_written_once),
     };
 
