@@ -10,7 +10,7 @@
 
 #define NO_ZERO 1e-150 /* so that fluid may be at rest; above the square of an imaginary part, 1e-200 */
 
-TERM(drag, PF_FLUID,
+TERM(drag, PF_CELL,
      IN(u, DATA(inverse_permeability, SCALAR, .unit = "1/m^2", .doc = "1/K; 0: free fluid", .min = 0, .max = 1e30)),
      OUT(v),
      PARAMS(DENSITY, VISCOSITY,
