@@ -1,6 +1,6 @@
 -- Slow flow of an Oldroyd-B fluid round a cylinder that blocks half of a channel, as oldroyd_b_cylinder, on a graded
 -- box: the cylinder is a fixed body that cuts through cells, and feels the polymers on its surface.  Both halves.
--- Expect the drag coefficient of oldroyd_b_cylinder: Wi = 0.1 130.36 (n = 8 / 16: 130.306 / 130.359), 0.2 126.63.
+-- Expect the drag coefficient of oldroyd_b_cylinder: Wi = 0.1 130.36 (n = 8 / 16: 130.306 / 130.359), 0.2 126.627.
 -- At larger Wi there is no steady solution on meshes as coarse as these: beside the surface fluid rests, and polymers
 -- grow for ever where grad u has an eigenvalue above 1/(2 lambda), which errors of a large shear rate are enough for.
 case "Oldroyd-B fluid round a confined cylinder, unfitted"

@@ -74,8 +74,7 @@ static void shear_that_starts_and_stops_follows_its_exponentials(void **state)
     }
 }
 
-/* Hulsen, Fattal and Kupferman 2005, J. Non-Newtonian Fluid Mech. 127:27, table 3: their finest meshes differ by
- * 0.01 among themselves. */
+/* Hulsen, Fattal and Kupferman 2005, J. Non-Newtonian Fluid Mech. 127:27; what several groups agree on to 0.01. */
 static void drag_of_the_confined_cylinder_is_that_of_the_literature(void **state)
 {
     (void)state;
