@@ -37,6 +37,7 @@
  * --- In its block ---
  * LANES (i)              for all points of the batch, i
  * EACH (a)               for all directions of space, a
+ * EACH_SPIN (a)          for all components of a spin: 1 in 2D, 3 in 3D
  * DIM                    2 or 3
  * AT(b->normal, a)       component a at lane i of what the batch b has: x, arm, normal, centre, ...; AT(b->axes, a,
  * k) FAIL(PF_RETRY, ...)    leaves: point i cannot be computed, and why, as in printf sqrt exp log sin cos tan tanh
@@ -66,9 +67,10 @@
 #define PF_TWIN __FILE_NAME__
 #endif
 
-#define LANES(i) PF_LANES_OF (b, i)
-#define EACH(a)  for (uint32_t a = 0; a < b->dim; a++)
-#define DIM      (b->dim)
+#define LANES(i)     PF_LANES_OF (b, i)
+#define EACH(a)      for (uint32_t a = 0; a < b->dim; a++)
+#define EACH_SPIN(a) for (uint32_t a = 0; a < (b->dim == 2 ? 1u : 3u); a++)
+#define DIM          (b->dim)
 
 #define AT(...)                  PF_PICK(__VA_ARGS__, PF_AT2, PF_AT1, )(__VA_ARGS__)
 #define PF_PICK(a, b, c, d, ...) d
