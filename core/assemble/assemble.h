@@ -15,6 +15,7 @@
 #include "assemble/tensor.h"
 #include "base/value.h"
 #include "particle/particle.h"
+#include "space/locate.h"
 #include "space/space.h"
 #include "term/term.h"
 
@@ -50,7 +51,7 @@ typedef struct body_points {
     int64_t n_pair;
     const near_pair *pair;
     double pair_size, pair_h; /* largest size of a body and of a cell, m: what the reach of terms goes by */
-    int64_t n_solid, n_cut; /* attached pairs (space.h) covered; cells cut by a surface  */
+    int64_t n_solid, n_cut;   /* attached pairs (space.h) covered; cells cut by a surface  */
     const int32_t *solid, *cut;
     const double *solid_weight, *cut_weight; /* inside of the body; outside of all bodies */
     int64_t n_surface;                       /* pieces of surface with SURFACE_POINTS points each       */
@@ -79,17 +80,21 @@ typedef struct moving_frame {
     void *ctx;
     /* At point x of a cell: w [dim]; history of each such field, one after the other.  0: w = 0. */
     int (*at)(void *ctx, int64_t cell, const double *x, double *w, double *history);
+    /* Where the path through x was at the end of the last step: the cell and the place in it.  outside: x is meant
+     * as a point of the fluid, also where a body covers it.  0: here. */
+    int (*before)(void *ctx, int64_t cell, const double *x, int outside, located *then);
 } moving_frame;
 
 /* One distinct quantity at the points: (field, eval), data of one use, or a key of the bodies. */
 typedef struct plan_input {
-    int field; /* -1: data, a key */
+    int field; /* -1: data, a key, or memory: */
+    int kept;  /* its number (space/kept.h), or -1 */
     uint32_t eval;
     int n_comp;
     size_t at; /* offset in units of n_q v8 */
     const value *data;
     const double *key; /* [n_body][n_comp] */
-    v8 *table; /* data that is a function: [batch][n_comp][n_q] */
+    v8 *table;         /* data that is a function: [batch][n_comp][n_q] */
 } plan_input;
 
 /* What of a basis function.  Laplacians are of trial functions only.  On pairs the value is what differs
@@ -112,7 +117,9 @@ typedef struct plan_use {
     int number;                /* of the use in all classes, see assembly.use     */
     int inside;                /* index into input[]: acts where that is above 0; -1: everywhere */
     int in[TERM_MAX_SLOTS];    /* index into input[]                            */
-    int out[TERM_MAX_SLOTS];   /* index into test[]                             */
+    int out[TERM_MAX_SLOTS];   /* index into test[]; -1: memory, which enters no equation */
+    int kept[TERM_MAX_SLOTS];  /* of such an output: index into input[] of what was kept before; else -1 */
+    int equations;             /* some output enters an equation */
     int trial[TERM_MAX_SLOTS]; /* index into trial[], -1 where no unknown        */
     int slope[TERM_MAX_SLOTS]; /* of du/dt in the fluid: its gradient there, for the moving frame; else -1 */
 } plan_use;
@@ -178,7 +185,12 @@ typedef struct assembly_class {
     size_t block[ASSEMBLE_MAX_TESTS][ASSEMBLE_MAX_TESTS]; /* offset of D block, SIZE_MAX: no coupling */
     size_t in_size, test_size, block_size, out_size, jac_size, room_size, scratch_size;
     int order_used[3], grad_used[3], laplace_used[3];
-    int any_laplace, any_metric;
+    int any_laplace, any_metric, any_kept; /* any_kept: some term reads or keeps memory */
+    double *kept_weight; /* [n_q][points of space.kept] of the values at a cell's points; NULL: n_q are these */
+    int kept_stamp;      /* of the moving frame that these values come along: */
+    int64_t *kept_at;    /* [n_batch] where in `kept` those of a batch are, -1: they rest */
+    v8 *kept;            /* of each memory input [n_comp][n_q] */
+    arena kept_memory;
     int any_body_data, any_wall; /* some term may read what 1.4 has of bodies; has PF_WALL_DISTANCE: */
     v8 *wall;                    /* [n_batch][n_q] distances from walls, once the items are known */
     int wall_ready;
@@ -247,8 +259,9 @@ typedef struct assembly_power {
 typedef struct assembly_state {
     double t, dt, shift;
     const double *x, *dot, *old;
-    const double (*fluid)[6];  /* [n_body] force (3) and torque (3; 2D: the first) of the fluid at the end of the last
-                                * step; NULL: 0 */
+    const double *kept;        /* memory at the end of the last step (space/kept.h); NULL: all zero */
+    const double (*fluid)[6];  /* [n_body] force (3) and torque (3; 2D: the first) of the fluid at the end of the
+                                * last  step; NULL: 0 */
     const body_points *bodies; /* NULL: there are none */
     const moving_frame *frame; /* NULL: all history is at a place */
     double faded;              /* part of the terms with PF_CONTINUATION that is left out: 0 none, 1 all of them */
@@ -263,6 +276,10 @@ int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int 
  * term's output, and with a matrix its derivatives, are checked for NaN and infinity and the first culprit is
  * named. ERR_PLUGIN or ERR_CONVERGE (err->retry) if a term fails. */
 int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err);
+
+/* The memory that terms keep at the end of a step, of its solution; kept[space->kept.n_value] holds that of its
+ * start, and is overwritten where a term keeps something.  Errors as assembly_run. */
+int assembly_keep(assembly *a, const assembly_state *s, double *kept, error *err);
 
 void assembly_destroy(assembly *a);
 

@@ -37,7 +37,7 @@ static int run_batch(const assembly *a, const assembly_class *c, const assembly_
     return 0;
 }
 
-static int report(const workspace *w, const assembly_class *c, error *err)
+int report_failure(const workspace *w, const assembly_class *c, error *err)
 {
     int code = error_set(err, w->report.status > 0 ? ERR_CONVERGE : ERR_PLUGIN, "%s (cells from %d)",
                          w->report.text, c->cell[c->batch[w->failed_batch]]);
@@ -89,7 +89,7 @@ static int run_slabs(assembly *a, const assembly_class *c, const assembly_state 
                 break;
     for (int k = 0; k < n; k++)
         if (a->work[k].failed_batch >= 0)
-            return report(&a->work[k], c, err);
+            return report_failure(&a->work[k], c, err);
     return 0;
 }
 
@@ -99,6 +99,7 @@ static int run_class(assembly *a, assembly_class *c, const assembly_state *s, do
     TRY(inputs_functions(a, c, &a->work[0], s->t, err));
     TRY(walls_update(a, c, err));
     TRY(history_update(a, c, s->frame, err));
+    TRY(kept_update(a, c, s, err));
     TRY(shares_clear(a, c, value != NULL, err));
     for (int round = 0; round < SLAB_ROUNDS; round++)
         TRY(run_slabs(a, c, s, round * c->n_slab, c->n_slab, residual, value, diagnose, err));
@@ -151,6 +152,7 @@ void assembly_destroy(assembly *a)
     for (int i = 0; i < a->n_class; i++) {
         arena_free(&a->class_[i].item_memory);
         arena_free(&a->class_[i].frame_memory);
+        arena_free(&a->class_[i].kept_memory);
         arena_free(&a->class_[i].wall_memory);
     }
     arena_free(&a->share_memory);

@@ -43,12 +43,15 @@ typedef struct workspace {
     v8 *still, *unknown; /* zeros for a rate; the unknowns as the tests take them [test_size] */
     const v8 *unknown_of[ASSEMBLE_MAX_TESTS]; /* of each test of the class: there, or among the inputs */
     double (*power)[POWERS];                  /* [assembly.n_use] */
+    double *kept;                             /* [VALUE_MAX][n_q] room, where there is memory */
     void *scratch;
     term_report report;
     int64_t failed_batch;
     arena memory;
 } workspace;
 
+/* The error of a batch that failed (assembly.c). */
+int report_failure(const workspace *w, const assembly_class *c, error *err);
 /* Orders the items of a class by slabs, in batches (slabs.c). */
 int slabs_make(assembly *a, assembly_class *c, arena *memory, error *err);
 /* shares.c: which bodies' rows have copies; the copies before the slabs run; that of an item, or NULL; afterwards.
@@ -86,6 +89,13 @@ int workspace_create(const assembly *a, workspace *w, error *err);
 int inputs_functions(assembly *a, assembly_class *c, workspace *w, double t, error *err);
 /* History along moving paths at all points near bodies; once per placement of these (history.c). */
 int history_update(const assembly *a, assembly_class *c, const moving_frame *f, error *err);
+/* What a term sees of the points of a class (evaluate.c); its outputs [.] in w->out, before evaluate_end, which
+ * completes the report and returns the status; whether an output is none, and reports it. */
+pf_batch evaluate_batch(const assembly_class *c, const assembly_state *s, int dim, workspace *w);
+int evaluate_term(const assembly_class *c, const plan_use *p, int64_t batch, pf_batch *b, const double **in,
+                  double **out, workspace *w);
+int evaluate_end(int status, workspace *w);
+int evaluate_find_nan(const pf_term *t, const pf_batch *b, double *const *out, term_report *r);
 /* Of the batch: takes an input du/dt over to the moving paths; w->dof: nodal values of its field now. */
 void history_take(const assembly *a, const assembly_class *c, const assembly_state *s, const plan_input *in,
                   workspace *w);
@@ -138,6 +148,20 @@ int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, c
 void power_clear(assembly *a);
 /* The sums of all threads, in their order. */
 void power_sum(const assembly *a, assembly_power *power);
+/* kept.c: prepares a class that has memory; values along moving paths, once per placement; of an input of a batch,
+ * [n_comp][n_q]; at a point of a cell, along the path through it. */
+int kept_place(assembly *a, assembly_class *c, error *err);
+int kept_update(const assembly *a, assembly_class *c, const assembly_state *s, error *err);
+void kept_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                 const plan_input *in, const workspace *w, v8 *out);
+void kept_along(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t cell,
+                const double *xi, const double *x, double *v);
+/* The same at all points of a cell that values are kept at; the polynomial nearest to values v[n_comp][n_q] at the
+ * points of an item that is a part of a cell, `at` before being what it is where these leave it open. */
+void kept_along_cell(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t cell,
+                     double *at);
+void kept_nearest(const assembly *a, const assembly_class *c, int64_t item, int n_comp, const double *v,
+                  double *at);
 /* inside.c.  Whether a term acts at any point of the batch; of n rows [ld] what is left where it does not: zero. */
 int inside_any(const assembly_class *c, const plan_use *p, const workspace *w);
 void inside_mask(const assembly_class *c, const plan_use *p, const workspace *w, double *rows, int n);

@@ -23,9 +23,9 @@ static void add_output(const assembly_class *c, const plan_use *p, double factor
     size_t ld = (size_t)c->n_q * PF_LANES;
 
     for (uint32_t o = 0; o < t->n_out; o++) {
-        double *restrict to = (double *)(w->test + c->test[p->out[o]].at * (size_t)c->n_q);
+        double *restrict to = (double *)(w->test + c->test[p->out[o] < 0 ? 0 : p->out[o]].at * (size_t)c->n_q);
         const double *restrict from = out[o];
-        int n = t->out[o].eval == PF_DIV ? dim : term_components(t->out[o].shape, dim);
+        int n = p->out[o] < 0 ? 0 : t->out[o].eval == PF_DIV ? dim : term_components(t->out[o].shape, dim);
 
         for (int k = 0; k < n; k++) { /* q div v is q I : grad v */
             double *restrict row = to + (size_t)(t->out[o].eval == PF_DIV ? k * dim + k : k) * ld;
@@ -97,7 +97,7 @@ static int find_nan(const pf_batch *b, const double *v, size_t n, const pf_slot 
     return 0;
 }
 
-static int find_nan_output(const pf_term *t, const pf_batch *b, double *const *out, term_report *r)
+int evaluate_find_nan(const pf_term *t, const pf_batch *b, double *const *out, term_report *r)
 {
     for (uint32_t o = 0; o < t->n_out; o++)
         if (find_nan(b, out[o], (size_t)term_components(t->out[o].shape, (int)b->dim) * b->ld, &t->out[o], NULL, r))
@@ -145,7 +145,7 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
             double factor = strength(s, p) * (t->in[k].eval == PF_DOT ? b->shift : 1);
             size_t block;
 
-            if (p->trial[k] < 0 || factor == 0)
+            if (p->trial[k] < 0 || p->out[o] < 0 || factor == 0)
                 continue;
             block = c->block[p->out[o]][p->trial[k]];
             if (block != SIZE_MAX)
@@ -178,15 +178,17 @@ static uint32_t kinds(const assembly *a, const plan_use *p)
 
 int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s)
 {
-    int any = !s->only;
+    int any = !s->only, equations = 0;
 
     for (int u = 0; u < c->n_use; u++)
         any |= (kinds(a, &c->use[u]) & s->only) != 0;
-    return any;
+    for (int u = 0; u < c->n_use; u++)
+        equations |= c->use[u].equations;
+    return any && equations;
 }
 
 /* What a term sees of the points of a class: what has no meaning there is NULL. */
-static pf_batch batch_of(const assembly_class *c, const assembly_state *s, int dim, workspace *w)
+pf_batch evaluate_batch(const assembly_class *c, const assembly_state *s, int dim, workspace *w)
 {
     int on_pair = c->where == PF_PAIR, on_surface = c->where == PF_SURFACE;
     int on_particle = c->where == PF_PARTICLE,
@@ -219,47 +221,28 @@ static pf_batch batch_of(const assembly_class *c, const assembly_state *s, int d
     return b;
 }
 
-/* Residual and, if asked for, derivatives of one term, added to what the others gave. */
-static int evaluate_term(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
-                         const plan_use *p, int with_matrix, int diagnose, pf_batch *b, workspace *w)
+int evaluate_term(const assembly_class *c, const plan_use *p, int64_t batch, pf_batch *b, const double **in,
+                  double **out, workspace *w)
 {
     const pf_term *t = p->use->term;
-    size_t nq = (size_t)c->n_q, ld = nq * PF_LANES;
-    const double *in[TERM_MAX_SLOTS];
-    double *out[TERM_MAX_SLOTS], *at = (double *)w->out;
-    int64_t cell = c->cell[c->batch[batch]];
-    int status, dim = (int)b->dim, within[PF_LANES], n_within = reach_of(a, c, p->use, w, within);
-    int masked = n_within < (int)PF_LANES;
-
-    if (n_within == 0)
-        return 0;
+    double *at = (double *)w->out;
 
     for (uint32_t k = 0; k < t->n_in; k++)
-        in[k] = (double *)(w->in + c->input[p->in[k]].at * nq);
+        in[k] = (double *)(w->in + c->input[p->in[k]].at * (size_t)c->n_q);
     for (uint32_t o = 0; o < t->n_out; o++) {
         out[o] = at;
-        at += (size_t)term_components(t->out[o].shape, dim) * ld;
+        at += (size_t)term_components(t->out[o].shape, (int)b->dim) * b->ld;
     }
     b->params = p->use->params;
     b->metric = t->flags & PF_METRIC ? (double *)w->metric : NULL;
     b->wall_distance = t->flags & PF_WALL_DISTANCE ? (double *)(c->wall + batch * c->n_q) : NULL;
     w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
-    process_enter(w->report.plugin, t->name, "residual", cell);
-    status = inside_residual(c, p, b, in, out, w);
-    if (masked)
-        reach_mask(within, out[0], (size_t)(at - out[0]));
-    if (!status && diagnose && find_nan_output(t, b, out, &w->report))
-        status = PF_FAIL;
-    if (!status) {
-        add_output(c, p, strength(s, p), out, dim, w);
-        if (s->power)
-            status = power_add(c, s, batch, p, strength(s, p), b, in, out, w);
-    }
-    if (!status) {
-        process_enter(w->report.plugin, t->name, "Jacobian", cell);
-        if (with_matrix)
-            status = add_jacobian(c, s, p, b, in, masked ? within : NULL, dim, diagnose, w);
-    }
+    process_enter(w->report.plugin, t->name, "residual", c->cell[c->batch[batch]]);
+    return inside_residual(c, p, b, in, out, w);
+}
+
+int evaluate_end(int status, workspace *w)
+{
     process_leave();
     if (status && !w->report.status)
         snprintf(w->report.text, sizeof w->report.text, "term %s.%s returned %d without saying why",
@@ -269,12 +252,42 @@ static int evaluate_term(const assembly *a, const assembly_class *c, const assem
     return status;
 }
 
+/* Residual and, if asked for, derivatives of one term, added to what the others gave. */
+static int add_term(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                    const plan_use *p, int with_matrix, int diagnose, pf_batch *b, workspace *w)
+{
+    const pf_term *t = p->use->term;
+    const double *in[TERM_MAX_SLOTS];
+    double *out[TERM_MAX_SLOTS];
+    int dim = (int)b->dim, within[PF_LANES], n_within = reach_of(a, c, p->use, w, within);
+    int status, masked = n_within < (int)PF_LANES;
+
+    if (n_within == 0)
+        return 0;
+    status = evaluate_term(c, p, batch, b, in, out, w);
+    for (uint32_t o = 0; masked && o < t->n_out; o++)
+        reach_mask(within, out[o], (size_t)term_components(t->out[o].shape, dim) * b->ld);
+    if (!status && diagnose && evaluate_find_nan(t, b, out, &w->report))
+        status = PF_FAIL;
+    if (!status) {
+        add_output(c, p, strength(s, p), out, dim, w);
+        if (s->power)
+            status = power_add(c, s, batch, p, strength(s, p), b, in, out, w);
+    }
+    if (!status) {
+        process_enter(w->report.plugin, t->name, "Jacobian", c->cell[c->batch[batch]]);
+        if (with_matrix)
+            status = add_jacobian(c, s, p, b, in, masked ? within : NULL, dim, diagnose, w);
+    }
+    return evaluate_end(status, w);
+}
+
 int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                    int with_matrix, int diagnose, workspace *w)
 {
     int dim = a->space->mesh->dim;
     size_t nq = (size_t)c->n_q;
-    pf_batch b = batch_of(c, s, dim, w);
+    pf_batch b = evaluate_batch(c, s, dim, w);
 
     memset(w->test, 0, c->test_size * nq * sizeof(v8));
     if (with_matrix)
@@ -284,8 +297,8 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
     for (int u = 0; u < c->n_use; u++) {
         const plan_use *p = &c->use[u];
 
-        if (strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)) && inside_any(c, p, w))
-            TRY(evaluate_term(a, c, s, batch, p, with_matrix, diagnose, &b, w));
+        if (p->equations && strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)) && inside_any(c, p, w))
+            TRY(add_term(a, c, s, batch, p, with_matrix, diagnose, &b, w));
     }
     return 0;
 }

@@ -54,6 +54,10 @@ void inputs_values(const assembly *a, const assembly_class *c, const assembly_st
             take_key(c, in, w, out);
             continue;
         }
+        if (in->kept >= 0) {
+            kept_values(a, c, s, batch, in, w, out);
+            continue;
+        }
         if (in->field < 0) {
             for (int i = 0; i < in->n_comp; i++)
                 for (int q = 0; q < nq; q++)

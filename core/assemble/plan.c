@@ -37,17 +37,19 @@ static int find_input(assembly_class *c, const space *s, const pf_slot *slot, co
                       error *err)
 {
     int f = term_slot_field(slot) ? space_find_field(s, slot->field) : -1;
+    int kept = slot->eval == PF_STATE ? kept_find(&s->kept, slot->field) : -1;
     plan_input *in;
 
     for (int i = 0; i < c->n_input; i++)
         if (c->input[i].field == f && c->input[i].eval == slot->eval && c->input[i].data == data &&
-            c->input[i].key == key)
+            c->input[i].key == key && c->input[i].kept == kept)
             return i;
     if (c->n_input == ASSEMBLE_MAX_INPUTS)
         return -error_set(err, ERR_PLUGIN, "the terms need more than %d different inputs", ASSEMBLE_MAX_INPUTS);
     in = &c->input[c->n_input];
-    *in = (plan_input){.field = f, .eval = slot->eval, .data = data, .key = key, .at = c->in_size};
+    *in = (plan_input){.field = f, .eval = slot->eval, .data = data, .key = key, .kept = kept, .at = c->in_size};
     in->n_comp = term_components(slot->shape, s->mesh->dim);
+    c->any_kept |= kept >= 0;
     c->in_size += (size_t)in->n_comp;
     if (f >= 0) {
         mark_used(c, s->field[f].order, kind_of(c, slot));
@@ -124,12 +126,18 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
             return err->code;
     }
     for (uint32_t o = 0; o < t->n_out; o++) {
-        p->out[o] = find_basis(c, s, c->test, &c->n_test, &t->out[o], err);
-        if (p->out[o] < 0)
+        const int keeps = t->out[o].eval == PF_STATE;
+
+        p->out[o] = keeps ? -1 : find_basis(c, s, c->test, &c->n_test, &t->out[o], err);
+        p->kept[o] = keeps ? find_input(c, s, &t->out[o], NULL, NULL, err) : -1;
+        if (p->out[o] < 0 && p->kept[o] < 0)
             return err->code;
+        p->equations |= !keeps;
         out += (size_t)term_components(t->out[o].shape, dim);
         for (uint32_t k = 0; k < t->n_in; k++) {
             jac += (size_t)(term_components(t->out[o].shape, dim) * term_components(t->in[k].shape, dim));
+            if (keeps)
+                continue;
             if (p->trial[k] >= 0 && (!t->depends || t->depends[o * t->n_in + k]))
                 c->block[p->out[o]][p->trial[k]] = 0;
             if (p->slope[k] >= 0 && (!t->depends || t->depends[o * t->n_in + k]))
@@ -251,6 +259,8 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
             }
     }
     TRY(place_rules(a, c, spec->rule, err));
+    if (c->any_kept)
+        TRY(kept_place(a, c, err));
     TRY(layout_create(a, c, err));
     TRY(layout_tensor(a, c, err));
     if (c->follows)

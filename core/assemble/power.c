@@ -22,7 +22,7 @@ static double output_power(const assembly_class *c, int64_t batch, const plan_us
     double total = 0;
 
     for (uint32_t o = 0; o < t->n_out; o++) {
-        const v8 *restrict x = w->unknown_of[p->out[o]], *restrict s = (const v8 *)out[o];
+        const v8 *restrict x = p->out[o] < 0 ? NULL : w->unknown_of[p->out[o]], *restrict s = (const v8 *)out[o];
         int div = t->out[o].eval == PF_DIV, n = div ? dim : term_components(t->out[o].shape, dim);
 
         for (int k = 0; x && k < n; k++) /* q div v is q I : grad v */

@@ -113,6 +113,8 @@ int workspace_create(const assembly *a, workspace *w, error *err)
     ARENA_NEW(memory, w->room, s.room + 1, err);
     ARENA_NEW(memory, w->g, TEST_ROWS * ASSEMBLE_PAD * s.q, err);
     ARENA_NEW(memory, w->vec, s.entries + 1, err);
+    if (a->space->kept.n)
+        ARENA_NEW(memory, w->kept, (int64_t)s.q * VALUE_MAX, err);
     ARENA_NEW(memory, w->mat, s.entries * s.width + 1, err);
     w->scratch = arena_alloc(memory, s.scratch + 1, 1);
     return w->scratch ? 0 : error_memory(err, "scratch", (double)s.scratch);

@@ -15,7 +15,8 @@ static void find_fields(bodies *b)
 
     for (int i = 0; i < d->n_use; i++)
         for (uint32_t o = 0; o < d->use[i].term->n_out; o++) {
-            int f = space_find_field(b->space, d->use[i].term->out[o].field), where = d->use[i].where;
+            const pf_slot *s = &d->use[i].term->out[o];
+            int f = term_slot_field(s) ? space_find_field(b->space, s->field) : -1, where = d->use[i].where;
 
             if (f >= 0 && b->space->field[f].order > 0) {
                 in_fluid[f] |= where == PF_FLUID;

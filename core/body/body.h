@@ -288,6 +288,7 @@ const moving_body *paths_below(const body_paths *t, const double *x);
 /* Lists which bodies may matter where, for a reach of at most this. */
 void paths_list(body_paths *t, int dim, double reach);
 int paths_at(void *bodies_, int64_t cell, const double *x, double *w, double *history); /* see moving_frame */
+int paths_before(void *bodies_, int64_t cell, const double *x, int outside, located *then);
 void placements_destroy(bodies *b);
 
 #endif

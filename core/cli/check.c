@@ -109,6 +109,7 @@ int cli_check(const cli *o, error *err)
                             .x = k->p.state.x,
                             .dot = k->p.system.step,
                             .old = k->p.state.x,
+                            .kept = k->p.state.kept,
                             .bodies = problem_points(&k->p)};
 
         s.shift = time->unsteady ? 1.5 / time->step : 0;

@@ -21,6 +21,7 @@ int describe(description *d, case_file *c, registry *r, warning_list *w, error *
     describe_check_formulation(d);
     describe_check_box(d);
     describe_check_terms(d);
+    describe_check_kept(d);
     return 0;
 }
 

@@ -155,6 +155,9 @@ typedef struct description {
     boundary_line *line;
     int n_body;
     body_spec *body;
+    field_list kept; /* memory of terms, and what it starts from */
+    value kept_initial[TERM_MAX_FIELDS];
+    int has_kept[TERM_MAX_FIELDS];
     int n_key;
     body_key key[DESCRIBE_MAX_KEYS];
     reader *reading; /* the block of a body that is being read */
@@ -226,7 +229,13 @@ int describe_instance(description *d, reader *own, const value **inside, const c
 int describe_check_twice(description *d, const reader *own, const term_use *u);
 /* Marks the terms that others replace; takes them out. */
 void describe_replace(description *d, registry *r);
+/* surfaces.c: marks terms at surfaces of bodies that the case has no use for. */
+void describe_surfaces(description *d);
 void describe_leave_out(description *d);
+/* Memory of the terms that are on (kept.c). */
+int describe_kept(description *d, error *err);
+void describe_initial_kept(description *d, reader *r);
+void describe_check_kept(const description *d);
 /* pf_term.init of all terms.  ERR_CASE. */
 int describe_start(description *d, error *err);
 /* Parameters and data of a term that is on, from its line and from fluid{}. */
@@ -242,7 +251,8 @@ int describe_field_is_balanced(const description *d, int f);
 /* A key that no term has asked for in this block, but another term or block has it. */
 void describe_misplaced(description *d, reader *r, const char *key, const char *fmt, ...)
     __attribute__((format(printf, 4, 5)));
-/* Which keys bodies have by terms; those of a body, and how its fields start; then, with all bodies, to the terms. */
+/* Which keys bodies have by terms; those of a body, and how its fields start; then, with all bodies, to the terms.
+ */
 int describe_body_keys(description *d, error *err);
 int describe_body_extras(description *d, reader *r, body_spec *q, error *err);
 int describe_hand_out_keys(description *d, error *err);

@@ -33,6 +33,8 @@ static void read_fields(description *d, const char *kind, value *v, int *has)
             (v == d->initial && f != describe_motion(d, 0) && f != describe_motion(d, 1)))
             has[f] = describe_value(&r, d->fields.f[f].name, d->fields.f[f].doc, d->fields.f[f].n_comp, d->dim,
                                     &v[f]) > 0;
+    if (v == d->initial)
+        describe_initial_kept(d, &r);
     for (int f = 0; f < d->fields.n; f++)
         if (d->fields.f[f].support == PF_ON_PARTICLE && !has[f] && reader_has(&r, d->fields.f[f].name) &&
             !reader_asked(&r, d->fields.f[f].name))

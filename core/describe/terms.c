@@ -119,16 +119,6 @@ static void read_options(description *d, reader *own, const term_plugin *plugin,
                   &o->over);
 }
 
-/* What the equations of a plugin need where the fluid ends at the surfaces of bodies, and only there. */
-static int is_for_sharp(const term_plugin *plugin, const pf_term *t)
-{
-    int in_cells = 0;
-
-    for (uint32_t i = 0; i < plugin->d.n_term; i++)
-        in_cells |= plugin->term[i].where == PF_CELL || plugin->term[i].where == PF_FLUID;
-    return in_cells && (t->where == PF_SURFACE || t->where == PF_CUT);
-}
-
 /* Terms that make sense in 2D, or in 3D, alone. */
 static void check_dimension(description *d, const reader *own, const term_plugin *plugin, const pf_term *t)
 {
@@ -140,8 +130,7 @@ static void check_dimension(description *d, const reader *own, const term_plugin
                    own->what, plugin->d.name, t->name, only, d->dim, only);
 }
 
-/* Switches on the terms of a line: the one that it names, or all but optional ones, those left out, and those at
- * the surfaces of bodies if the fluid goes on inside of them. */
+/* Switches on the terms of a line: the one that it names, or all but optional ones and those left out. */
 static int switch_on(description *d, reader *own, const term_plugin *plugin, const char *single,
                      const line_options *o, line_terms *mine, error *err)
 {
@@ -151,8 +140,7 @@ static int switch_on(description *d, reader *own, const term_plugin *plugin, con
         const pf_term *t = &plugin->term[i];
 
         if (single ? strcmp(t->name, single) != 0
-                   : (t->flags & PF_OPTIONAL) || is_listed(t->name, o->without, o->n_without) ||
-                         (!o->over && is_for_sharp(plugin, t)))
+                   : (t->flags & PF_OPTIONAL) || is_listed(t->name, o->without, o->n_without))
             continue;
         found = 1;
         check_dimension(d, own, plugin, t);
@@ -351,10 +339,12 @@ int describe_terms(description *d, registry *r, error *err)
         n += line[n].plugin != NULL;
     }
     describe_replace(d, r);
+    describe_surfaces(d);
     for (int k = 0; k < n; k++)
         TRY(read_keys(d, &fluid, &line[k], err));
     describe_leave_out(d);
     describe_unshared_keys(d, &fluid);
+    TRY(describe_kept(d, err));
     TRY(collect_fields(d, r, err));
     if (!d->incomplete)
         reader_close(&fluid);

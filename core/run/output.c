@@ -85,6 +85,7 @@ static int open_files(run *r, text *units, error *err)
     TRY(table_open(&r->forces, err));
     TRY(table_open(&r->probes, err));
     TRY(table_open(&r->particles, err));
+    TRY(table_open(&r->values, err));
     return write_units(r, units, err);
 }
 
@@ -103,6 +104,8 @@ int output_open(run *r, error *err)
     status = tables_plan(r, &units, err);
     if (!status)
         status = particles_plan(r, err);
+    if (!status)
+        status = problem_table_plan(r, err);
     if (!status)
         status =
             results_expect(r, err); /* everything is known to be right before anything of an earlier run goes */
@@ -182,6 +185,7 @@ void output_close(run *r)
     table_destroy(&r->forces);
     table_destroy(&r->probes);
     table_destroy(&r->particles);
+    table_destroy(&r->values);
     for (int i = 0; i < r->n_body_file; i++)
         free(r->body_file[i]);
     free(r->body_file);

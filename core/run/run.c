@@ -105,7 +105,7 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
 
     memset(result, 0, sizeof *result);
     result->status = "ok";
-    r.forces.fd = r.probes.fd = r.particles.fd = -1;
+    r.forces.fd = r.probes.fd = r.particles.fd = r.values.fd = -1;
     status = prepare(&r, err);
     if (!status) {
         status = p->description.time.unsteady ? unsteady(&r, stop, err) : run_steady(&r, stop, err);

@@ -62,7 +62,7 @@ typedef struct run {
     int before_steps;                 /* rows are of the start: there are no reactions yet */
     double *x;                        /* [n_dof] the solution, free fields with zero mean */
     double taken;                     /* its time: of the last step of the run, s */
-    table forces, probes, particles;
+    table forces, probes, particles, values; /* values: problem.csv */
     double *body_row;  /* room for a row of particles.csv, and a count a body */
     float *node_share; /* [n_node] */
     int n_body_file;
@@ -131,6 +131,17 @@ const body_place *inside_place(const run *r, const double *x); /* the body that 
 void inside_value(const run *r, const body_place *p, int field, const double *x, double *v);
 /* r->body_of_node; the motion of bodies at the nodes that they hold into shown [n_dof]. */
 void inside_nodes(run *r, double *shown);
+
+/* --- fields off the mesh (off_mesh.c) --- */
+
+enum { OFF_MESH_NAME = 96, OFF_MESH_MOST = 9 * SPACE_MAX_FIELDS };
+/* Those with this support, bodies' velocity and spin left out: how many; their columns; values of a carrier, returns
+ * what follows. */
+int off_mesh_fields(const run *r, uint32_t support, int *list);
+int off_mesh_columns(const run *r, uint32_t support, char (*name)[OFF_MESH_NAME]);
+double *off_mesh_values(const run *r, uint32_t support, int32_t carrier, double *to);
+int problem_table_plan(run *r, error *err);
+int problem_table_add(run *r, double t, error *err); /* a row of problem.csv */
 
 int particles_plan(run *r, error *err);
 double particles_energy(const run *r); /* kinetic, J */

@@ -20,12 +20,12 @@ static results_column column_of(const run *r, const table *t, int c, const char 
 
 static int gather_columns(const run *r, arena *memory, results_input *in, error *err)
 {
-    const table *plain[] = {&r->forces, &r->probes}, *bodies = &r->particles;
+    const table *plain[] = {&r->forces, &r->probes, &r->values}, *bodies = &r->particles;
     int n_body = r->p->bodies.n;
 
     in->t = (results_column){.first = r->time, .stride = 1, .n = (long)r->n_time};
-    ARENA_NEW(memory, in->column, r->forces.n_column + r->probes.n_column + n_body * bodies->n_column + 1, err);
-    for (int k = 0; k < 2; k++)
+    ARENA_NEW(memory, in->column, r->forces.n_column + r->probes.n_column + r->values.n_column + n_body * bodies->n_column + 1, err);
+    for (int k = 0; k < 3; k++)
         for (int c = 1; c < plain[k]->n_column; c++)
             in->column[in->n_column++] = column_of(r, plain[k], c, plain[k]->column[c], 0, 1);
     for (int id = 0; id < n_body; id++) /* p<id>.<name>, from the third column on: t, id, ... */

@@ -296,6 +296,8 @@ int tables_add(run *r, double t, error *err)
         status = add_forces(r, t, row, err);
     if (!status && o->n_probe)
         status = add_probes(r, t, row, err);
+    if (!status)
+        status = problem_table_add(r, t, err);
     free(row);
     TRY(status);
     if (r->before_steps)

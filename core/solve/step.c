@@ -176,11 +176,24 @@ static int place_ahead(stepper *p, const state *from, state *to, double dt, int 
     return 0;
 }
 
+/* Memory at the end of the step.  A term that asks for a shorter one gets it. */
+static int keep(stepper *p, const newton_time *time, state *to, int *converged, error *err)
+{
+    int status = system_keep(p->system, time, to->x, to->kept, err);
+
+    if (!status || !err->retry)
+        return status;
+    snprintf(p->report.why, sizeof p->report.why, "%.500s", err->text);
+    *converged = 0;
+    return 0;
+}
+
 /* One BDF step of order 1 or 2 from a state to another. */
 static int step(stepper *p, const state *from, state *to, int order, double dt, int *converged, error *err)
 {
     bdf b = bdf_of(order, dt, from->dt_previous);
-    newton_time time = {.t = from->t + dt, .dt = dt, .shift = b.shift, .history = p->history, .old = from->x};
+    newton_time time = {
+        .t = from->t + dt, .dt = dt, .shift = b.shift, .history = p->history, .old = from->x, .kept = from->kept};
     time.fluid = (const double(*)[6])from->fluid;
     int too_far = 0;
 
@@ -215,6 +228,7 @@ static int step(stepper *p, const state *from, state *to, int order, double dt, 
     if (p->bodies->n)
         TRY(bodies_fill(p->bodies, p->bodies->now, to->x, err));
     TRY(step_react(p, time, to->x, err));
+    TRY(keep(p, &time, to, converged, err));
     remember_fluid(p, to);
     advance_levels(from, to, dt);
     return 0;
@@ -242,6 +256,7 @@ static int start(stepper *p, const state *from, double dt, int *converged, error
     for (int64_t k = 0; k < n; k++) /* what was off in one of the two has no value there to extrapolate from */
         whole->x[k] =
             p->idle[k] || (p->bodies->n && p->bodies->now->idle[k]) ? full->x[k] : 2 * full->x[k] - whole->x[k];
+    memcpy(whole->kept, full->kept, (size_t)from->n_kept * sizeof *full->kept); /* bounds of memory hold */
     for (int i = 0; i < REACTIONS && p->reaction[i]; i++)
         for (int64_t k = 0; k < n; k++)
             p->reaction[i][k] = 2 * p->reaction[i][k] - p->saved[i][k];

@@ -15,7 +15,8 @@ static void couple_fields(newton_system *s, const pf_term *t)
 {
     for (uint32_t o = 0; o < t->n_out; o++)
         for (uint32_t k = 0; k < t->n_in; k++)
-            if (term_is_unknown(&t->in[k]) && (!t->depends || t->depends[o * t->n_in + k]))
+            if (term_is_unknown(&t->in[k]) && term_slot_field(&t->out[o]) &&
+                (!t->depends || t->depends[o * t->n_in + k]))
                 s->coupled[space_find_field(s->space, t->out[o].field)] |=
                     1u << space_find_field(s->space, t->in[k].field);
 }
@@ -55,29 +56,33 @@ void system_destroy(newton_system *s)
     memset(s, 0, sizeof *s);
 }
 
+/* What the assembly is told; s->work is the rate. */
+static assembly_state state_of(newton_system *s, const newton_time *time, const double *x)
+{
+    for (int64_t d = 0; d < s->space->n_dof; d++)
+        s->work[d] = time->history ? time->shift * x[d] + time->history[d] : 0;
+    return (assembly_state){.t = time->t,
+                            .dt = time->dt,
+                            .shift = time->shift,
+                            .x = x,
+                            .dot = s->work,
+                            .old = time->old ? time->old : x,
+                            .kept = time->kept,
+                            .fluid = time->fluid,
+                            .bodies = time->bodies,
+                            .frame = time->frame,
+                            .faded = time->faded,
+                            .only = time->only,
+                            .power = time->power};
+}
+
 int system_evaluate(newton_system *s, const newton_time *time, const double *x, int with_matrix, int diagnose,
                     error *err)
 {
-    const space *sp = s->space;
-    assembly_state st = {.t = time->t,
-                         .dt = time->dt,
-                         .shift = time->shift,
-                         .x = x,
-                         .dot = s->work,
-                         .old = time->old,
-                         .fluid = time->fluid,
-                         .bodies = time->bodies,
-                         .frame = time->frame,
-                         .faded = time->faded,
-                         .only = time->only,
-                         .power = time->power};
     double start = clock_seconds();
+    assembly_state st = state_of(s, time, x);
     int status;
 
-    for (int64_t d = 0; d < sp->n_dof; d++)
-        s->work[d] = time->history ? time->shift * x[d] + time->history[d] : 0;
-    if (!st.old)
-        st.old = x;
     gauge_use(s, time->bodies);
     status = assembly_run(&s->assembly, &st, s->residual, with_matrix ? s->linear.value : NULL, diagnose, err);
     s->evaluations++;
@@ -97,6 +102,13 @@ int system_is_linear(const newton_system *s, const newton_time *time)
             linear &= (use->term->flags & PF_LINEAR) || ((use->term->flags & PF_CONTINUATION) && time->faded == 1);
         }
     return linear;
+}
+
+int system_keep(newton_system *s, const newton_time *time, const double *x, double *kept, error *err)
+{
+    const assembly_state st = state_of(s, time, x);
+
+    return s->space->kept.n ? assembly_keep(&s->assembly, &st, kept, err) : 0;
 }
 
 int newton_residual(newton_system *s, const newton_time *time, const double *x, double *residual, error *err)

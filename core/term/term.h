@@ -116,7 +116,7 @@ typedef struct term_use {
     const value *data[TERM_MAX_SLOTS]; /* for PF_DATA slots */
     const value *inside;               /* acts where this is above 0; NULL: on all its points                 */
     const char *label;                 /* `name` of the line, for messages and reports; NULL: it has none     */
-    int replaced;                      /* another term takes its place                                         */
+    int replaced;                      /* another term takes its place, or there is no use for it               */
     const double *key[TERM_MAX_SLOTS]; /* for PF_BODY_KEY and PF_OTHER_KEY slots: [n_body][components] */
 } term_use;
 

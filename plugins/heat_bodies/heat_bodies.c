@@ -3,176 +3,118 @@
  * Heat and bodies with sharp surfaces, beside the plugin heat for the fluid.  Bodies that conduct have a
  * temperature of their own, T_body, on the cells that they reach into, so that its slope may jump at their
  * surfaces; heat goes over by Nitsche's method with the flux of the fluid.  Or surfaces hold a temperature, or give
- * off a flux: then nothing is solved inside.  The equations stand in equations.h. */
-#include <plugflow/fluid.h>
+ * off a flux: then nothing is solved inside.  n points out of the fluid; k, c, rho are the fluid's. */
+#include <plugflow/term.h>
 
-struct heat {
-    double conductivity, heat_capacity, density; /* k, c, rho of the fluid, W/(m K), J/(kg K), kg/m^3 */
-    double body_conductivity, body_heat_capacity;
-    double gamma;    /* penalty of the jump, in k/h                  */
-    double g_k, g_t; /* weights of the ties                          */
-};
+#define HARDLY 1e-8 /* of the bodies' conductivity, outside of them */
 
-#define HARDLY 1e-8
-
-#include <plugflow/twin_real.h>
-#include "equations.h"
-#include <plugflow/twin_complex.h>
-#include "equations.h"
-
-#define GIVEN         .flags = PF_REQUIRED | PF_SHARED, PF_NOT_NEGATIVE
-#define CONDUCTIVITY  PF_NUMBER(struct heat, conductivity, "W/(m K)", "thermal conductivity", GIVEN)
-#define HEAT_CAPACITY PF_NUMBER(struct heat, heat_capacity, "J/(kg K)", "heat capacity per mass", GIVEN)
+#define PF_SHAPE_T_body SCALAR
+#define GIVEN           .flags = PF_REQUIRED | PF_SHARED, PF_NOT_NEGATIVE
+#define CONDUCTIVITY    REAL(conductivity, "W/(m K)", "thermal conductivity", GIVEN)
+#define HEAT_CAPACITY   REAL(heat_capacity, "J/(kg K)", "heat capacity per mass", GIVEN)
+#define GAMMA           REAL(gamma, "1", "penalty of a jump at surfaces, in k/h", .dflt = 20, PF_NOT_NEGATIVE)
 #define BODY_CONDUCTIVITY                                                                                          \
-    PF_NUMBER(struct heat, body_conductivity, "W/(m K)", "thermal conductivity of the bodies",                     \
-              .flags = PF_REQUIRED, PF_NOT_NEGATIVE)
-#define GAMMA                                                                                                      \
-    PF_NUMBER(struct heat, gamma, "1", "penalty of a jump at surfaces, in k/h", .dflt = 20, PF_NOT_NEGATIVE)
+    REAL(body_conductivity, "W/(m K)", "thermal conductivity of the bodies", .flags = PF_REQUIRED, PF_NOT_NEGATIVE)
+#define BODY_HEAT_CAPACITY                                                                                         \
+    REAL(body_heat_capacity, "J/(kg K)", "heat capacity per mass of the bodies", PF_NOT_NEGATIVE)
 
-#define T_SLOT                                                                                                     \
-    {                                                                                                              \
-        "T", "T", PF_VALUE, PF_SCALAR                                                                              \
+/* (g_k k/h^2 + g_t rho c c0/dt) dT ds;  d: what differs from the polynomial of the root.  h = 1/2 and c0/dt = 15 in
+ * worked examples. */
+TERM(tie, PF_CUT, IN(SLOT(dT, T, DEFECT, SCALAR)), OUT(SLOT(ds, T, DEFECT, SCALAR)),
+     PARAMS(CONDUCTIVITY, HEAT_CAPACITY, DENSITY,
+            REAL(g_k, "1", "tie of the temperature, in k/h^2", .dflt = 0.1, PF_NOT_NEGATIVE),
+            REAL(g_t, "1", "tie of the temperature, in rho c c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)),
+     .flags = PF_LINEAR, .doc = "(g_k k/h^2+g_t\\rho c\\,c_0/\\Delta t)(T-ET)(s-Es)",
+     .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)")
+{
+    LANES (i)
+        ds[i] = (g_k * conductivity / (b->h[i] * b->h[i]) + g_t * density * heat_capacity * b->shift) * dT[i];
+}
+
+/* What fluid with this slope of T loses to a surface that is colder by w, -k dT/dn + gamma k/h w at lane i, and
+ * what grad s gets, k n w: Nitsche's method with the skew sign */
+static inline NUM F(loss)(const pf_batch *b, const NUM *grad_T, NUM w, double k, double gamma, uint32_t i,
+                          NUM *grad_s)
+{
+    NUM flux = gamma * k / b->h[i] * w;
+
+    EACH (a) {
+        flux -= k * AT(grad_T, a) * AT(b->normal, a);
+        AT(grad_s, a) = k * w * AT(b->normal, a);
     }
-#define GRAD_T                                                                                                     \
-    {                                                                                                              \
-        "grad_T", "T", PF_GRAD, PF_VECTOR                                                                          \
+    return flux;
+}
+
+/* -k dT/dn s + k ds/dn (T - T_b) + gamma k/h (T - T_b) s: the surface holds the temperature T_b */
+TERM(surface_temperature, PF_SURFACE, IN(T, grad_T, DATA(temperature, SCALAR)), OUT(s, grad_s),
+     PARAMS(CONDUCTIVITY, GAMMA), .flags = PF_LINEAR | PF_OPTIONAL,
+     .doc = "-k\\,\\partial_nT\\,s+k\\,\\partial_ns\\,w+\\gamma\\frac kh\\,w\\,s,\\ w=T-T_b",
+     .cite = "Freund and Stenberg 1995 (skew form of Nitsche's method)")
+{
+    LANES (i)
+        s[i] = F(loss)(b, grad_T[0], T[i] - temperature[i], conductivity, gamma, i, grad_s[0]);
+}
+
+/* The same with the temperature of the body, which gets what the fluid loses */
+TERM(interface, PF_SURFACE, IN(T, grad_T, VALUE(T_body)), OUT(s, grad_s, TEST(T_body, s_b)),
+     PARAMS(CONDUCTIVITY, GAMMA), .flags = PF_LINEAR,
+     .doc = "q\\,(s-s_b)+k\\,\\partial_ns\\,(T-T_b),\\ q=-k\\,\\partial_nT+\\gamma\\frac kh(T-T_b)",
+     .cite = "Freund and Stenberg 1995 (skew form of Nitsche's method), with the flux of one side")
+{
+    LANES (i) {
+        s[i] = F(loss)(b, grad_T[0], T[i] - T_body[i], conductivity, gamma, i, grad_s[0]);
+        s_b[i] = -s[i];
     }
-#define GRAD_T_BODY                                                                                                \
-    {                                                                                                              \
-        "grad_T_b", "T_body", PF_GRAD, PF_VECTOR                                                                   \
-    }
-#define S                                                                                                          \
-    {                                                                                                              \
-        "s", "T", PF_VALUE, PF_SCALAR                                                                              \
-    }
-#define GRAD_S                                                                                                     \
-    {                                                                                                              \
-        "grad_s", "T", PF_GRAD, PF_VECTOR                                                                          \
-    }
-#define S_BODY                                                                                                     \
-    {                                                                                                              \
-        "s_b", "T_body", PF_VALUE, PF_SCALAR                                                                       \
-    }
-#define GRAD_S_BODY                                                                                                \
-    {                                                                                                              \
-        "grad_s_b", "T_body", PF_GRAD, PF_VECTOR                                                                   \
-    }
+}
 
-static const pf_term tie = {
-    PF_TERM(tie),
-    .where = PF_CUT,
-    .flags = PF_LINEAR,
-    .doc = "(g_k k/h^2+g_t\\rho c\\,c_0/\\Delta t)(T-ET)(s-Es)",
-    .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)",
-    PF_IN({"dT", "T", PF_DEFECT, PF_SCALAR}),
-    PF_OUT({"ds", "T", PF_DEFECT, PF_SCALAR}),
-    PF_PARAMS(
-        struct heat, CONDUCTIVITY, HEAT_CAPACITY, PF_DENSITY(struct heat),
-        PF_NUMBER(struct heat, g_k, "1", "tie of the temperature, in k/h^2", .dflt = 0.1, PF_NOT_NEGATIVE),
-        PF_NUMBER(struct heat, g_t, "1", "tie of the temperature, in rho c c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)),
-};
+/* -q s: the surface gives off heat */
+TERM(surface_flux, PF_SURFACE, IN(DATA(heat_flux, SCALAR)), OUT(s), PARAMS(), .flags = PF_LINEAR | PF_OPTIONAL,
+     .doc = "-q\\,s", .cite = "Carslaw, Jaeger (1959), 1.9",
+     PF_EXAMPLES({"q = 3 W/m^2 into the fluid", 2, NULL, (double[]){3}, (double[]){-3}, 1e-15}))
+{
+    LANES (i)
+        s[i] = -heat_flux[i];
+}
 
-static const pf_term surface_temperature = {
-    PF_TERM(surface_temperature),
-    .where = PF_SURFACE,
-    .flags = PF_LINEAR | PF_OPTIONAL,
-    .doc = "-k\\,\\partial_nT\\,s+k\\,\\partial_ns\\,w+\\gamma\\frac kh\\,w\\,s,\\ w=T-T_b",
-    .cite = "Freund and Stenberg 1995 (skew form of Nitsche's method)",
-    PF_IN(T_SLOT, GRAD_T, {"temperature", NULL, PF_DATA, PF_SCALAR}),
-    PF_OUT(S, GRAD_S),
-    PF_PARAMS(struct heat, CONDUCTIVITY, GAMMA),
-};
+/* k_b grad T_b . grad s_b */
+TERM(conduction, PF_SOLID, IN(GRAD(T_body)), OUT(GRAD_TEST(T_body, s_b)), PARAMS(BODY_CONDUCTIVITY),
+     .flags = PF_LINEAR, .doc = "k_b\\nabla T_b\\cdot\\nabla s_b", .cite = "Carslaw, Jaeger (1959), 1.6",
+     PF_EXAMPLES({"k_b = 3", 2, (double[]){3}, (double[]){1, -2}, (double[]){3, -6}, 1e-15}))
+{
+    EACH (k)
+        LANES (i)
+            grad_s_b[k][i] = body_conductivity * grad_T_body[k][i];
+}
 
-static const pf_term surface_flux = {
-    PF_TERM(surface_flux),
-    .where = PF_SURFACE,
-    .flags = PF_LINEAR | PF_OPTIONAL,
-    .doc = "-q\\,s",
-    .cite = "Carslaw, Jaeger (1959), 1.9",
-    PF_IN({"heat_flux", NULL, PF_DATA, PF_SCALAR}),
-    PF_OUT(S),
-    PF_EXAMPLES({"q = 3 W/m^2 into the fluid", 2, NULL, (double[]){3}, (double[]){-3}, 1e-15}),
-};
+/* The same, next to nothing of it, outside: some unknowns of cut cells have next to no body */
+TERM(continuation, PF_FLUID, IN(GRAD(T_body)), OUT(GRAD_TEST(T_body, s_b)), PARAMS(BODY_CONDUCTIVITY),
+     .flags = PF_LINEAR, .doc = "10^{-8}k_b\\nabla T_b\\cdot\\nabla s_b", .cite = "docs/theory.md",
+     PF_EXAMPLES({"k_b = 3e8", 2, (double[]){3e8}, (double[]){1, -2}, (double[]){3, -6}, 1e-15}))
+{
+    EACH (k)
+        LANES (i)
+            grad_s_b[k][i] = HARDLY * body_conductivity * grad_T_body[k][i];
+}
 
-static const pf_term interface = {
-    PF_TERM(interface),
-    .where = PF_SURFACE,
-    .flags = PF_LINEAR,
-    .doc = "q\\,(s-s_b)+k\\,\\partial_ns\\,(T-T_b),\\ q=-k\\,\\partial_nT+\\gamma\\frac kh(T-T_b)",
-    .cite = "Freund and Stenberg 1995 (skew form of Nitsche's method), with the flux of one side",
-    PF_IN(T_SLOT, GRAD_T, {"T_b", "T_body", PF_VALUE, PF_SCALAR}),
-    PF_OUT(S, GRAD_S, S_BODY),
-    PF_PARAMS(struct heat, CONDUCTIVITY, GAMMA),
-};
+/* rho_P c_b dT_b/dt s_b */
+TERM(storage, PF_SOLID, IN(DOT(T_body)), OUT(TEST(T_body, s_b)), PARAMS(BODY_HEAT_CAPACITY), .flags = PF_LINEAR,
+     .doc = "\\rho_Pc_b\\,\\partial_tT_b\\,s_b", .cite = "Carslaw, Jaeger (1959), 1.6")
+{
+    LANES (i)
+        s_b[i] = b->density[i] * body_heat_capacity * T_body_t[i];
+}
 
-static const pf_term conduction = {
-    PF_TERM(conduction),
-    .where = PF_SOLID,
-    .flags = PF_LINEAR,
-    .doc = "k_b\\nabla T_b\\cdot\\nabla s_b",
-    .cite = "Carslaw, Jaeger (1959), 1.6",
-    PF_IN(GRAD_T_BODY),
-    PF_OUT(GRAD_S_BODY),
-    PF_PARAMS(struct heat, BODY_CONDUCTIVITY),
-    PF_EXAMPLES({"k_b = 3", 2, (double[]){3}, (double[]){1, -2}, (double[]){3, -6}, 1e-15}),
-};
+/* -q_b s_b, heat made in the bodies, per volume */
+TERM(source, PF_SOLID, IN(DATA(heat_source, SCALAR)), OUT(TEST(T_body, s_b)), PARAMS(), .flags = PF_LINEAR,
+     .doc = "-q_b\\,s_b", .cite = "Carslaw, Jaeger (1959), 1.6",
+     PF_EXAMPLES({"q_b = 3 W/m^3", 2, NULL, (double[]){3}, (double[]){-3}, 1e-15}))
+{
+    LANES (i)
+        s_b[i] = -heat_source[i];
+}
 
-static const pf_term storage = {
-    PF_TERM(storage),
-    .where = PF_SOLID,
-    .flags = PF_LINEAR,
-    .doc = "\\rho_Pc_b\\,\\partial_tT_b\\,s_b",
-    .cite = "Carslaw, Jaeger (1959), 1.6",
-    PF_IN({"T_b_t", "T_body", PF_DOT, PF_SCALAR}),
-    PF_OUT(S_BODY),
-    PF_PARAMS(struct heat, PF_NUMBER(struct heat, body_heat_capacity, "J/(kg K)",
-                                     "heat capacity per mass of the bodies", PF_NOT_NEGATIVE)),
-};
-
-static const pf_term source = {
-    PF_TERM(source),
-    .where = PF_SOLID,
-    .flags = PF_LINEAR,
-    .doc = "-q_b\\,s_b",
-    .cite = "Carslaw, Jaeger (1959), 1.6",
-    PF_IN({"heat_source", NULL, PF_DATA, PF_SCALAR}),
-    PF_OUT(S_BODY),
-    PF_EXAMPLES({"q_b = 3 W/m^3", 2, NULL, (double[]){3}, (double[]){-3}, 1e-15}),
-};
-
-static const pf_term continuation = {
-    PF_TERM(continuation),
-    .where = PF_FLUID,
-    .flags = PF_LINEAR,
-    .doc = "10^{-8}k_b\\nabla T_b\\cdot\\nabla s_b",
-    .cite = "docs/theory.md",
-    PF_IN(GRAD_T_BODY),
-    PF_OUT(GRAD_S_BODY),
-    PF_PARAMS(struct heat, BODY_CONDUCTIVITY),
-    PF_EXAMPLES({"k_b = 3e8", 2, (double[]){3e8}, (double[]){1, -2}, (double[]){3, -6}, 1e-15}),
-};
-
-static const pf_plugin heat_bodies = {
-    PF_PLUGIN,
-    .min_minor = 1,
-    .name = "heat_bodies",
-    .version = "1.0",
-    .author = "plugflow",
-    .license = "GPL-3.0-or-later",
-    .doc = "bodies that conduct heat, or hold a temperature",
-    PF_FIELDS({.name = "T",
-               .unit = "K",
-               .doc = "temperature",
-               .shape = PF_SCALAR,
-               .order = 2,
-               .reaction = "heat",
-               .reaction_unit = "W"},
-              {.name = "T_body",
-               .unit = "K",
-               .doc = "temperature of bodies",
-               .shape = PF_SCALAR,
-               .order = 2,
-               .support = PF_IN_PARTICLES}),
-    PF_TERMS(&tie, &surface_temperature, &surface_flux, &interface, &conduction, &storage, &source, &continuation),
-};
-PF_ENTRY(heat_bodies)
+PLUGIN(heat_bodies, "bodies that conduct heat, hold a temperature, or give off heat",
+       FIELDS(T, FIELD(T_body, "K", "temperature of bodies", .order = 2, .support = PF_IN_PARTICLES)),
+       TERMS(tie, surface_temperature, surface_flux, interface, conduction, continuation, storage, source),
+       .author = "plugflow", .license = "GPL-3.0-or-later")
+#include PF_TWIN

@@ -1,99 +1,113 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Two fluids that do not mix, with the tension of their interface: a conservative level set phi (Olsson and Kreiss
- * 2005), 0 in the first fluid, of fluid{}, and 1 in the second.  The equations stand in equations.h. */
-#include <plugflow/fluid.h>
+ * 2005), 0 in the first fluid, of fluid{}, and 1 in the second.  n = grad phi / |grad phi|; d is the distance from
+ * the interface, phi = 1/2, across which phi = 1/(1 + exp(d/e)). */
+#include <plugflow/term.h>
 
-#include <tgmath.h>
+#define FLAT 0.01 /* e |grad phi| where the fluids count as unmixed */
 
-#define FLAT 1e-2 /* e |grad phi| where the fluids count as unmixed */
+#define NEEDED       .flags = PF_REQUIRED, PF_NOT_NEGATIVE
+#define THICKNESS    REAL(thickness, "m", "e of phi = 1/(1 + exp(d/e)); a third of a cell or more", NEEDED)
+#define SPEED        REAL(speed, "m/s", "at which the interface is restored; of the size of velocities", NEEDED)
+#define TENSION      REAL(tension, "N/m", "tension of the interface", PF_NOT_NEGATIVE)
+#define OF_SECOND(X) X " of the second fluid"
 
-struct level_set {
-    double density, viscosity;     /* of the first fluid, kg/m^3, Pa s  */
-    double density_2, viscosity_2; /* of the second                     */
-    double gravity[3];             /* g, m/s^2                          */
-    int reduced_pressure;          /* 1: p is the pressure without rho g.x of the first */
-    double tension;                /* sigma, N/m                        */
-    double thickness;              /* e, m                              */
-    double speed;                  /* c, m/s                            */
-};
+/* |grad phi| at lane i; where the fluids are all but unmixed it levels off, so that n dies out there */
+static inline NUM F(steepness)(const pf_batch *b, const NUM *grad_phi, double e, uint32_t i)
+{
+    NUM sum = FLAT * FLAT / (e * e);
 
-#include <plugflow/twin_real.h>
-#include "equations.h"
-#include <plugflow/twin_complex.h>
-#include "equations.h"
+    EACH (k)
+        sum += AT(grad_phi, k) * AT(grad_phi, k);
+    return sqrt(sum);
+}
 
-#define KEY(MEMBER, UNIT, DOC) PF_NUMBER(struct level_set, MEMBER, UNIT, DOC, .flags = PF_REQUIRED, PF_NOT_NEGATIVE)
+/* (d phi/dt + u . grad phi) s */
+TERM(transport, PF_FLUID, IN(phi_t, u, grad_phi), OUT(test_phi), PARAMS(),
+     .doc = "(\\partial_t\\phi+u\\cdot\\nabla\\phi)\\,s",
+     .cite = "Olsson and Kreiss 2005, J. Comput. Phys. 210:225",
+     PF_EXAMPLES({"d phi/dt = 3, u = (1, -2), grad phi = (3, 5)", 2, NULL, (double[]){3, 1, -2, 3, 5},
+                  (double[]){-4}, 1e-15}))
+{
+    LANES (i)
+        test_phi[i] = phi_t[i];
+    EACH (k)
+        LANES (i)
+            test_phi[i] += u[k][i] * grad_phi[k][i];
+}
 
-#define THICKNESS KEY(thickness, "m", "e of the interface, phi = 1/(1 + exp(d/e)); half a cell or more")
+/* c (e grad phi - phi (1 - phi) n) . grad s, at rest for the profile of phi across the interface */
+TERM(compression, PF_FLUID, IN(phi, grad_phi), OUT(grad_test_phi), PARAMS(THICKNESS, SPEED),
+     .doc = "c\\,(e\\nabla\\phi-\\phi(1-\\phi)\\,n)\\cdot\\nabla s,\\ n=\\nabla\\phi/|\\nabla\\phi|",
+     .cite = "Olsson and Kreiss 2005, J. Comput. Phys. 210:225; Chiu and Lin 2011, J. Comput. Phys. 230:185",
+     PF_EXAMPLES({"e = 1/1200, c = 2, phi = 1/4, grad phi = (3, -4): 5, and 12 by FLAT, make 13", 2,
+                  (double[]){1.0 / 1200, 2}, (double[]){0.25, 3, -4},
+                  (double[]){6 * (1.0 / 1200 - 3.0 / 208), -8 * (1.0 / 1200 - 3.0 / 208)}, 1e-14}))
+{
+    LANES (i) {
+        const NUM c = speed * (thickness - phi[i] * (1 - phi[i]) / F(steepness)(b, grad_phi[0], thickness, i));
 
-static const pf_term transport = {
-    PF_TERM(transport),
-    .where = PF_FLUID,
-    .doc = "(\\partial_t\\phi+u\\cdot\\nabla\\phi)\\,s",
-    .cite = "Olsson and Kreiss 2005, J. Comput. Phys. 210:225",
-    PF_IN({"phi_t", "phi", PF_DOT, PF_SCALAR}, {"u", "u", PF_VALUE, PF_VECTOR},
-          {"grad_phi", "phi", PF_GRAD, PF_VECTOR}),
-    PF_OUT({"s", "phi", PF_VALUE, PF_SCALAR}),
-    PF_EXAMPLES({"d phi/dt = 3, u = (1, -2), grad phi = (3, 5)", 2, NULL, (double[]){3, 1, -2, 3, 5},
-                 (double[]){-4}, 1e-15}),
-};
+        EACH (k)
+            grad_test_phi[k][i] = c * grad_phi[k][i];
+    }
+}
 
-static const pf_term compression = {
-    PF_TERM(compression),
-    .where = PF_FLUID,
-    .doc = "c\\,(e\\nabla\\phi-\\phi(1-\\phi)\\,n)\\cdot\\nabla s,\\ n=\\nabla\\phi/|\\nabla\\phi|",
-    .cite = "Olsson and Kreiss 2005, J. Comput. Phys. 210:225; Chiu and Lin 2011, J. Comput. Phys. 230:185",
-    PF_IN({"phi", "phi", PF_VALUE, PF_SCALAR}, {"grad_phi", "phi", PF_GRAD, PF_VECTOR}),
-    PF_OUT({"grad_s", "phi", PF_GRAD, PF_VECTOR}),
-    PF_PARAMS(struct level_set, THICKNESS,
-              KEY(speed, "m/s", "at which the interface is restored; about the largest velocity")),
-    PF_EXAMPLES({"e = 0.1, c = 2, phi = 1/4, grad phi = (3, -4): 2 (0.1 - 3/80) grad phi", 2, (double[]){0.1, 2},
-                 (double[]){0.25, 3, -4}, (double[]){0.375, -0.5}, 1e-5}),
-};
+/* sigma |grad phi| (I - n n) : grad v, the tension of the interface drawn out over its thickness */
+TERM(tension, PF_FLUID, IN(grad_phi), OUT(grad_v), PARAMS(TENSION, THICKNESS),
+     .doc = "\\sigma\\,|\\nabla\\phi|\\,(I-n\\,n):\\nabla v",
+     .cite = "Lafaurie et al. 1994, J. Comput. Phys. 113:134",
+     PF_EXAMPLES({"sigma = 10, e = 1e6, grad phi = (3, -4): 10/5 (16 12; 12 9)", 2, (double[]){10, 1e6},
+                  (double[]){3, -4}, (double[]){32, 24, 24, 18}, 1e-14}))
+{
+    LANES (i) {
+        const NUM steep = F(steepness)(b, grad_phi[0], thickness, i);
 
-static const pf_term tension = {
-    PF_TERM(tension),
-    .where = PF_FLUID,
-    .doc = "\\sigma\\,|\\nabla\\phi|\\,(I-n\\,n):\\nabla v",
-    .cite = "Lafaurie et al. 1994, J. Comput. Phys. 113:134",
-    PF_IN({"grad_phi", "phi", PF_GRAD, PF_VECTOR}),
-    PF_OUT({"grad_v", "u", PF_GRAD, PF_TENSOR}),
-    PF_PARAMS(struct level_set,
-              PF_NUMBER(struct level_set, tension, "N/m", "tension of the interface", PF_NOT_NEGATIVE), THICKNESS),
-    PF_EXAMPLES({"sigma = 10, grad phi = (3, -4): 10/5 (16 12; 12 9)", 2, (double[]){10, 1}, (double[]){3, -4},
-                 (double[]){32, 24, 24, 18}, 1e-7}),
-};
+        EACH (a)
+            EACH (k)
+                grad_v[a][k][i] = tension * ((a == k ? steep : 0) - grad_phi[a][i] * grad_phi[k][i] / steep);
+    }
+}
 
-static const pf_term momentum = {
-    PF_TERM(momentum),
-    .where = PF_FLUID,
-    .flags = PF_CONTINUATION,
-    .doc = "\\rho\\,(\\partial_t u+(u\\cdot\\nabla)u-g)\\cdot v+(2\\mu D(u)-p\\,I):\\nabla v",
-    .cite = "appendix A.7-A.15, with density and viscosity of two fluids",
-    PF_IN({"phi", "phi", PF_VALUE, PF_SCALAR}, {"u_t", "u", PF_DOT, PF_VECTOR}, {"u", "u", PF_VALUE, PF_VECTOR},
-          {"grad_u", "u", PF_GRAD, PF_TENSOR}, {"p", "p", PF_VALUE, PF_SCALAR}),
-    PF_OUT({"v", "u", PF_VALUE, PF_VECTOR}, {"grad_v", "u", PF_GRAD, PF_TENSOR}),
-    PF_PARAMS(struct level_set, PF_DENSITY(struct level_set), PF_VISCOSITY(struct level_set),
-              KEY(density_2, "kg/m^3", "mass per volume of the second fluid"),
-              KEY(viscosity_2, "Pa s", "dynamic viscosity of the second fluid"), PF_GRAVITY(struct level_set),
-              PF_REDUCED_PRESSURE(struct level_set)),
-    PF_EXAMPLES({"phi = 1/2 of rho = 1, 3, mu = 1, 5; g = (0, -10), du/dt = (1, -2), u = (1, 2), grad u = (3 4; 5 "
-                 "6), p = 7",
-                 2, (double[]){1, 1, 3, 5, 0, -10, 0}, (double[]){0.5, 1, -2, 1, 2, 3, 4, 5, 6, 7},
-                 (double[]){24, 50, 11, 27, 27, 29}, 1e-14}),
-};
+/* rho (du/dt + (u . grad) u - g) . v + 2 mu D(u) : grad v - p div v, without the weight of the first fluid if p is
+ * the reduced pressure; rho and mu are those of the fluid at the point */
+TERM(momentum, PF_FLUID, IN(phi, u_t, u, grad_u, p), OUT(v, grad_v),
+     PARAMS(DENSITY, VISCOSITY, REAL(density_2, "kg/m^3", OF_SECOND("mass per volume"), NEEDED),
+            REAL(viscosity_2, "Pa s", OF_SECOND("dynamic viscosity"), NEEDED), GRAVITY, REDUCED_PRESSURE),
+     .flags = PF_CONTINUATION,
+     .doc = "\\rho\\,(\\partial_t u+(u\\cdot\\nabla)u-g)\\cdot v+(2\\mu D(u)-p\\,I):\\nabla v",
+     .cite = "appendix A.7-A.15, with density and viscosity of two fluids",
+     PF_EXAMPLES({"phi = 1/2 of rho = 1, 3, mu = 1, 5; g = (0, -10), du/dt = (1, -2), u = (1, 2), grad u = (3 4; 5 "
+                  "6), p = 7",
+                  2, (double[]){1, 1, 3, 5, 0, -10, 0}, (double[]){0.5, 1, -2, 1, 2, 3, 4, 5, 6, 7},
+                  (double[]){24, 50, 11, 27, 27, 29}, 1e-14}))
+{
+    EACH (a)
+        LANES (i) {
+            const NUM share = creal(phi[i]) < 0 ? 0 : creal(phi[i]) > 1 ? 1 : phi[i];
+            const NUM rho = density + (density_2 - density) * share;
+            const NUM mu = viscosity + (viscosity_2 - viscosity) * share;
+            NUM rate = u_t[a][i];
 
-static const pf_plugin level_set = {
-    PF_PLUGIN,
-    .min_minor = 0,
-    .name = "level_set",
-    .version = "1.0",
-    .author = "plugflow",
-    .license = "GPL-3.0-or-later",
-    .doc = "two fluids that do not mix",
-    PF_FIELDS(PF_FIELD_VELOCITY, PF_FIELD_PRESSURE,
-              {.name = "phi", .unit = "1", .doc = "share of the second fluid", .shape = PF_SCALAR, .order = 2}),
-    PF_TERMS(&transport, &compression, &tension, &momentum),
-};
-PF_ENTRY(level_set)
+            EACH (k) {
+                rate += u[k][i] * grad_u[a][k][i];
+                grad_v[a][k][i] = mu * (grad_u[a][k][i] + grad_u[k][a][i]) - (a == k ? p[i] : 0);
+            }
+            v[a][i] = rho * rate - (rho - (reduced_pressure ? density : 0)) * gravity[a];
+        }
+}
+
+/* g (c/h + c0/dt) dphi ds;  d: what differs from the polynomial of the root */
+TERM(tie, PF_CUT, IN(SLOT(dphi, phi, DEFECT, SCALAR)), OUT(SLOT(ds, phi, DEFECT, SCALAR)),
+     PARAMS(SPEED, REAL(g, "1", "tie of phi, in c/h and c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)),
+     .flags = PF_LINEAR | PF_OPTIONAL, .doc = "g(c/h+c_0/\\Delta t)(\\phi-E\\phi)(s-Es)",
+     .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)")
+{
+    LANES (i)
+        ds[i] = g * (speed / b->h[i] + b->shift) * dphi[i];
+}
+
+PLUGIN(level_set, "two fluids that do not mix",
+       FIELDS(u, p, FIELD(phi, "1", "share of the second fluid", .order = 2)),
+       TERMS(transport, compression, tension, momentum, tie), .author = "plugflow", .license = "GPL-3.0-or-later")
+#include PF_TWIN
