@@ -105,7 +105,7 @@ tree *meaning_of_name(form *f, const char *name, int column)
     const weak_field *field = form_field(f, name), *test = field_of_test(f, name);
     symbol *s = form_named(f, name);
 
-    if (s && (s->kind == SYM_PART || s->kind == SYM_VECTOR))
+    if (s && (s->kind == SYM_PART || s->kind == SYM_VECTOR || (s->kind == SYM_SLOT && !s->field)))
         return of_symbol(f, s, column);
     if (field || test)
         return of_slot(f, field ? field : test, "", !field, column);
@@ -205,17 +205,31 @@ static tree *of_field(form *f, const char *name, int column, const tree *a)
     return of_slot(f, s->field, name, s->kind == SYM_TEST, column);
 }
 
-/* vector(b): the parameter b is a vector. */
-static tree *of_vector(form *f, int column, tree *a)
+/* vector(b): the parameter b is a vector; data(q), data(vector(f)): a value or function of the case;
+ * property(k): a quantity that another term may publish. */
+static tree *of_parameter(form *f, const char *function, int column, tree *a)
 {
-    symbol *s = a->symbol;
+    symbol *s = strcmp(a->op, "name") == 0 ? a->symbol : NULL;
+    const int is_vector = strcmp(function, "vector") == 0, is_data = strcmp(function, "data") == 0;
 
-    if (!s || (s->kind != SYM_REAL && s->kind != SYM_VECTOR))
-        form_fail(f, column, "vector(...): expected the name of a parameter");
-    if (s->kind == SYM_REAL)
+    if (s && s->field)
+        form_fail(f, column, "%s(%s): %s is %s %s; give it another name", function, s->name, s->name,
+                  s->kind == SYM_TEST ? "the test function of" : "the field", s->field->name);
+    if (!s || (s->kind != SYM_REAL && s->kind != SYM_VECTOR && (s->kind != SYM_SLOT || s->field)) ||
+        (s->rank && !is_vector && !is_data))
+        form_fail(f, column, "%s(...): expected a name that is no field%s", function,
+                  is_data ? ", or vector(name)" : "");
+    if (s->kind == SYM_SLOT)
+        return a;
+    if (is_vector && s->kind == SYM_REAL)
         s->entry = form_text(f, "VECTOR(%s, \"1\", \"%s\")", s->name, s->name);
-    s->kind = SYM_VECTOR;
-    s->rank = a->rank = 1;
+    else if (is_data)
+        s->entry = form_text(f, "DATA(%s, %s)", s->name, s->rank ? "VECTOR" : "SCALAR");
+    else if (!is_vector)
+        s->entry = form_text(f, "PROPERTY(%s, \"1\")", s->name);
+    s->kind = is_vector ? SYM_VECTOR : SYM_SLOT;
+    s->rank = a->rank = is_vector ? 1 : s->rank;
+    s->moves = !is_vector && !is_data;
     return a;
 }
 
@@ -227,8 +241,8 @@ tree *meaning_of_call(form *f, const char *name, int column, tree **arg, int n)
     const struct function *g = functions, *end = functions + sizeof functions / sizeof *functions;
     tree *t;
 
-    if (strcmp(name, "vector") == 0 && n == 1)
-        return of_vector(f, column, arg[0]);
+    if (n == 1 && (strcmp(name, "vector") == 0 || strcmp(name, "data") == 0 || strcmp(name, "property") == 0))
+        return of_parameter(f, name, column, arg[0]);
     if (strcmp(name, "dot") == 0 && n == 2)
         return of_dot(f, column, arg[0], arg[1]);
     for (size_t i = 0; i < sizeof of_fields / sizeof *of_fields; i++) {
