@@ -27,9 +27,12 @@
  * --- In a term ---
  * IN(...), OUT(...)      slots, see "Slots" below: standard ones by their names, u, grad_u, p, ...
  * PARAMS(...)            keys of the term's line: REAL, VECTOR, INT, SWITCH, CHOICE, or DENSITY, VISCOSITY, ...
- * .flags = ..., and so on: all other members of pf_term.  NAME_check, NAME_reach, NAME_jacobian, NAME_init and
- *                        NAME_done are declared (not static), to be named here and defined below, in #if PF_ONCE;
- *                        there the parameters are the members of struct NAME_params
+ * .flags = ..., and so on: all other members of pf_term
+ * CHECK(stress, PARAMS(...)) { REFUSE_UNLESS(n > 0, "n is %g; ...", n); }
+ * REACH(force, PARAMS(...)) { return range * h; }
+ *                        after the term, which has .check = stress_check, .reach = force_reach: what is wrong with
+ *                        parameters; the gap beyond which a term on pairs does nothing (`size` of the body, `h` of
+ *                        cells).  NAME_init and NAME_done are declared, too, to be defined in #if PF_ONCE
  * --- By hand, where speed matters: without it the complex numbers give the derivatives ---
  * JACOBIAN(convection, IN(u, grad_u), PARAMS(DENSITY), BLOCKS(BLOCK(v, u), BLOCK(v, grad_u)))
  *                        after the term, which has .jacobian = convection_jacobian; in its block dv_du[a][k][i] is
@@ -372,9 +375,48 @@
 #define PF_EACH_15(M, X, K, A, ...) M(X, K, A) PF_EACH_14(M, X, K + 1, __VA_ARGS__)
 #define PF_EACH_16(M, X, K, A, ...) M(X, K, A) PF_EACH_15(M, X, K + 1, __VA_ARGS__)
 
-/* In a check: 1 and the message, as in printf, unless it is so.  Needs err and n, as `int (*check)(...)` has them.
- */
-#define PF_REFUSE_UNLESS(SO, ...) ((SO) ? 0 : (snprintf(err, n, __VA_ARGS__), 1))
+/* What is said of parameters and of pairs before there is any point. */
+#define CHECK(NAME, KEYS)                                                                                          \
+    PF_CHECK_ONCE(NAME, KEYS)                                                                                      \
+    PF_CHECK_KEYS(NAME, PF_OPEN_##KEYS)
+#define PF_CHECK_ONCE(NAME, KEYS)                                                                                  \
+    PF_CHECK_KEYS(NAME, PF_OPEN_##KEYS);                                                                           \
+    int NAME##_check(const void *params, char *err, size_t n)                                                      \
+    {                                                                                                              \
+        const struct NAME##_params *pf_keys = params;                                                              \
+        int pf_status = 0;                                                                                         \
+                                                                                                                   \
+        (void)pf_keys;                                                                                             \
+        F(NAME##_check_keys)(&pf_status, err, n PF_EACH(PF_KEY_PASSED, NAME, PF_OPEN_##KEYS));                     \
+        return pf_status;                                                                                          \
+    }
+#define PF_CHECK_KEYS(NAME, KEYS)                                                                                  \
+    PF_UNUSED static void F(NAME##_check_keys)(PF_UNUSED int *pf_status, PF_UNUSED char *pf_err,                   \
+                                               PF_UNUSED size_t pf_room PF_EACH(PF_KEY_ARGUMENT, NAME, KEYS))
+#define REFUSE_UNLESS(SO, ...)                                                                                     \
+    do {                                                                                                           \
+        if (SO)                                                                                                    \
+            break;                                                                                                 \
+        snprintf(pf_err, pf_room, __VA_ARGS__);                                                                    \
+        *pf_status = 1;                                                                                            \
+        return;                                                                                                    \
+    } while (0)
+
+#define REACH(NAME, KEYS)                                                                                          \
+    PF_REACH_ONCE(NAME, KEYS)                                                                                      \
+    PF_REACH_KEYS(NAME, PF_OPEN_##KEYS)
+#define PF_REACH_ONCE(NAME, KEYS)                                                                                  \
+    PF_REACH_KEYS(NAME, PF_OPEN_##KEYS);                                                                           \
+    double NAME##_reach(const void *params, double size, double h)                                                 \
+    {                                                                                                              \
+        const struct NAME##_params *pf_keys = params;                                                              \
+                                                                                                                   \
+        (void)pf_keys;                                                                                             \
+        return F(NAME##_reach_keys)(size, h PF_EACH(PF_KEY_PASSED, NAME, PF_OPEN_##KEYS));                         \
+    }
+#define PF_REACH_KEYS(NAME, KEYS)                                                                                  \
+    PF_UNUSED static double F(NAME##_reach_keys)(PF_UNUSED double size,                                            \
+                                                 PF_UNUSED double h PF_EACH(PF_KEY_ARGUMENT, NAME, KEYS))
 
 /* --- The plugin: PLUGIN(heat, "what it is for", FIELDS(u, T), TERMS(storage, diffusion), .author = "me").  Fields
  * are standard ones, u, p, T, c, phi, U, omega, lambda, or new ones: FIELD(tau, "Pa", "stress", .order = 1), whose
@@ -496,9 +538,13 @@ static inline double pf_real_min(double x, double y)
 #undef PF_TERM_ONCE
 #undef PF_PLUGIN_ONCE
 #undef PF_JACOBIAN_ONCE
+#undef PF_CHECK_ONCE
+#undef PF_REACH_ONCE
 #define PF_ONCE 0
 #define PF_TWIN "plugflow/twin_complex.h" /* no third time */
 #define PF_TERM_ONCE(...)
 #define PF_PLUGIN_ONCE(...)
 #define PF_JACOBIAN_ONCE(...)
+#define PF_CHECK_ONCE(...)
+#define PF_REACH_ONCE(...)
 #endif
