@@ -453,8 +453,8 @@
 #define PF_FIELD_p PF_FIELD_FIELD(p, "Pa", "pressure", .order = 1)
 #define PF_FIELD_T PF_FIELD_FIELD(T, "K", "temperature", .order = 2, .reaction = "heat", .reaction_unit = "W")
 #define PF_FIELD_c                                                                                                 \
-    PF_FIELD_FIELD(c, "mol/m^3", "concentration", .order = 2, .reaction = "flow", .reaction_unit = "mol/s")
-#define PF_FIELD_phi    PF_FIELD_FIELD(phi, "m", "level set", .order = 2)
+    PF_FIELD_FIELD(c, "mol/m^3", "concentration", .order = 2, .reaction = "rate", .reaction_unit = "mol/s")
+#define PF_FIELD_phi    PF_FIELD_FIELD(phi, "1", "share of the second fluid", .order = 2)
 #define PF_FIELD_U      PF_FIELD_FIELD(U, "m/s", "velocity of a particle", .support = PF_ON_PARTICLE)
 #define PF_FIELD_omega  PF_FIELD_FIELD(omega, "rad/s", "angular velocity of a particle", .support = PF_ON_PARTICLE)
 #define PF_FIELD_lambda PF_FIELD_FIELD(lambda, "m/s", "multiplier of the rigid motion", .order = 2)
