@@ -77,7 +77,7 @@ static void take_derivatives(sheet *s)
 /* Whether there is a slot in it, also one of the step before: the Jacobian of a linear term has none. */
 static int moves(const expr *e)
 {
-    int m = e->kind == X_SYMBOL && e->symbol->kind == SYM_SLOT;
+    int m = e->kind == X_SYMBOL && e->symbol->kind == SYM_SLOT && !e->symbol->is_property;
 
     for (int i = 0; i < e->n; i++)
         m |= moves(e->arg[i]);
@@ -99,7 +99,7 @@ static void leave_out_unused(form *f, const expr *whole)
     int n = 0;
 
     for (int i = 0; i < f->n_symbol; i++)
-        if (is_mentioned(whole, f->symbol[i]) || f->symbol[i]->kind == SYM_POINT)
+        if (is_mentioned(whole, f->symbol[i]) || (f->symbol[i]->kind != SYM_SLOT && f->symbol[i]->kind != SYM_TEST))
             f->symbol[n++] = f->symbol[i];
     f->n_symbol = n;
 }
@@ -166,7 +166,7 @@ static void emit_term(const sheet *s, text *t)
     int nonlinear = 0, n_unknown = 0;
 
     for (int i = 0; i < s->n_block; i++)
-        nonlinear |= moves(s->block[i].value);
+        nonlinear |= !s->block[i].in->is_property && moves(s->block[i].value);
     for (int i = 0; i < f->n_symbol; i++)
         n_unknown += f->symbol[i]->kind == SYM_SLOT && f->symbol[i]->moves;
     text_add(t, "TERM(%s, %s, ", f->request->name, f->request->where);

@@ -31,10 +31,9 @@ static int begins(const char *s, const char *with)
 /* Which key of the case gives it: of the term's own line, of fluid{}, or none. */
 static text *keys_of(const symbol *s, weak_result *out)
 {
-    if (s->field || !s->entry || (s->kind != SYM_REAL && s->kind != SYM_VECTOR && s->kind != SYM_SLOT))
+    if (s->field || s->is_property || !s->entry ||
+        (s->kind != SYM_REAL && s->kind != SYM_VECTOR && s->kind != SYM_SLOT))
         return NULL;
-    if (begins(s->entry, "PROPERTY(viscosity") || begins(s->entry, "PROPERTY(density"))
-        return &out->fluid;
     return s->kind == SYM_SLOT || begins(s->entry, "REAL(") || begins(s->entry, "VECTOR(") ? &out->keys
                                                                                            : &out->fluid;
 }

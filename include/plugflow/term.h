@@ -89,7 +89,8 @@
 /* --- Slots: VALUE(u), GRAD(u), DIV(u), DOT(u), OLD(u), LAPLACE(u) are u, grad_u, div_u, u_t, old_u, lap_u; the
  * test function of u: TEST(u, v), GRAD_TEST(u, v), DIV_TEST(u, v) are v, grad_v, div_v.  Those of the standard
  * fields go by their names alone.  A new field: #define PF_SHAPE_tau SYMMETRIC, and then VALUE(tau), ...  What is
- * left, in full: SLOT(dU, U, DEFECT, VECTOR).  Others: DATA(flux, SCALAR), PROPERTY(viscosity, "Pa s"),
+ * left, in full: SLOT(dU, U, DEFECT, VECTOR).  Others: DATA(flux, SCALAR), PROPERTY(viscosity, "Pa s")
+ * to publish it, PROPERTY_AS(k, conductivity, "W/(m K)") to take it as k, rho and mu being those of fluid{},
  * BODY_KEY(charge, "C", doc), STATE(name, field, SHAPE), SHOW(rate, SCALAR, "1/s", doc), INTEGRAL(power, SCALAR,
  * "W", doc); after them members of pf_slot. --- */
 #define PF_SLOT_VALUE(F)                            PF_SHAPE_##F, F, #F, PF_VALUE
@@ -104,6 +105,8 @@
 #define PF_SLOT_SLOT(NAME, FIELD, EVAL, SHAPE, ...) SHAPE, NAME, #FIELD, PF_##EVAL, __VA_ARGS__
 #define PF_SLOT_DATA(NAME, SHAPE, ...)              SHAPE, NAME, NULL, PF_DATA, __VA_ARGS__
 #define PF_SLOT_PROPERTY(NAME, UNIT, ...)           SCALAR, NAME, #NAME, PF_PROPERTY, .unit = UNIT, __VA_ARGS__
+#define PF_SLOT_PROPERTY_AS(NAME, PUBLISHED, UNIT, ...)                                                            \
+    SCALAR, NAME, #PUBLISHED, PF_PROPERTY, .unit = UNIT, __VA_ARGS__
 #define PF_SLOT_BODY_KEY(NAME, UNIT, DOC, ...)                                                                     \
     SCALAR, NAME, #NAME, PF_BODY_KEY, .unit = UNIT, .doc = DOC, __VA_ARGS__
 #define PF_SLOT_STATE(NAME, FIELD, SHAPE, ...)    SHAPE, NAME, #FIELD, PF_STATE, __VA_ARGS__
@@ -182,6 +185,12 @@
 #define PF_SLOT_xi            PF_SLOT_TEST(omega, xi)
 #define PF_SLOT_eta           PF_SLOT_TEST(lambda, eta)
 #define PF_SLOT_grad_eta      PF_SLOT_GRAD_TEST(lambda, eta)
+
+/* Properties of the fluid, see PF_PROPERTY; the term lists the keys DENSITY and VISCOSITY, too. */
+#define PF_SLOT_rho                                                                                                \
+    SCALAR, rho, "density", PF_PROPERTY, .unit = "kg/m^3", .doc = "mass per volume", .min = 0, .max = 1e30
+#define PF_SLOT_mu                                                                                                 \
+    SCALAR, mu, "viscosity", PF_PROPERTY, .unit = "Pa s", .doc = "dynamic viscosity", .min = 1e-30, .max = 1e30
 
 /* What a slot is in the point function. */
 #define PF_ROWS_SCALAR(NUMBER, NAME)         NUMBER *restrict NAME
