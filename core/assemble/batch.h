@@ -91,6 +91,8 @@ int slots_input(assembly_class *c, const space *s, const pf_slot *slot, const va
                 error *err);
 int slots_find(assembly_class *c, const space *s, const term_use *use, uint32_t k, error *err);
 int slots_basis(assembly_class *c, const space *s, plan_basis *list, int *n, const pf_slot *slot, error *err);
+/* An output that is shown has a place of its own among the test functions, and no field. */
+int slots_shown(assembly_class *c, const space *s, const pf_slot *slot, error *err);
 int slots_trial(assembly_class *c, const space *s, const pf_slot *slot, int *trial, int *slope, error *err);
 void slots_sizes(assembly_class *c, const pf_term *t, int dim);
 int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err);
@@ -171,6 +173,9 @@ int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, c
 void power_clear(assembly *a);
 /* The sums of all threads, in their order. */
 void power_sum(const assembly *a, assembly_power *power);
+/* What shown terms gave at the points of a batch; not 0: NaN, see w->report.  Room beforehand (show.c). */
+int show_batch(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch, workspace *w);
+int show_begin(const assembly *a, assembly_shown *to, error *err);
 /* kept.c: prepares a class that has memory; values along moving paths, once per placement; of an input of a batch,
  * [n_comp][n_q]; at a point of a cell, along the path through it. */
 int kept_place(assembly *a, assembly_class *c, error *err);

@@ -113,6 +113,7 @@ int bodies_create(bodies *b, const description *d, space *s, const cell_grid *gr
         return wants_walls(d) ? pairs_find_walls(b, err) : 0;
     find_fields(b);
     b->has_surface = describe_has(d, PF_SURFACE);
+    b->shows_surface = describe_shows(d, PF_SURFACE);
     b->has_ties = describe_has(d, PF_CUT);
     b->has_pairs = describe_has(d, PF_PAIR);
     for (int64_t e = 0; e < s->mesh->n_cell; e++)

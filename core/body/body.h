@@ -126,6 +126,7 @@ typedef struct bodies {
     space *space;
     warning_list *warnings;
     int field_velocity, field_spin; /* of the bodies, or -1 */
+    int shows_surface;              /* some term whose results are shown acts on surfaces */
     int has_surface, has_ties, has_pairs, any_fluid_only;
     int fluid_only[SPACE_MAX_FIELDS]; /* fields with equations in the fluid only */
     const cell_grid *grid;

@@ -58,13 +58,15 @@ typedef struct run {
     const char *dir;
     const run_talk *talk;
     run_result *result;
-    double largest[SPACE_MAX_FIELDS]; /* size of each field so far, for is_steady */
-    int before_steps;                 /* rows are of the start: there are no reactions yet */
-    double *x;                        /* [n_dof] the solution, free fields with zero mean */
-    double taken;                     /* its time: of the last step of the run, s */
+    double largest[SPACE_MAX_FIELDS];        /* size of each field so far, for is_steady */
+    int before_steps;                        /* rows are of the start: there are no reactions yet */
+    double *x;                               /* [n_dof] the solution, free fields with zero mean */
+    double taken;                            /* its time: of the last step of the run, s */
     table forces, probes, particles, values; /* values: problem.csv */
-    double *body_row;  /* room for a row of particles.csv, and a count a body */
-    float *node_share; /* [n_node] */
+    table integrals;
+    struct showing *showing; /* NULL: no term shows anything (showing.h) */
+    double *body_row;        /* room for a row of particles.csv, and a count a body */
+    float *node_share;       /* [n_node] */
     int n_body_file;
     char **body_file;
     int64_t n_time, time_room;
@@ -135,8 +137,8 @@ void inside_nodes(run *r, double *shown);
 /* --- fields off the mesh (off_mesh.c) --- */
 
 enum { OFF_MESH_NAME = 96, OFF_MESH_MOST = 9 * SPACE_MAX_FIELDS };
-/* Those with this support, bodies' velocity and spin left out: how many; their columns; values of a carrier, returns
- * what follows. */
+/* Those with this support, bodies' velocity and spin left out: how many; their columns; values of a carrier,
+ * returns what follows. */
 int off_mesh_fields(const run *r, uint32_t support, int *list);
 int off_mesh_columns(const run *r, uint32_t support, char (*name)[OFF_MESH_NAME]);
 double *off_mesh_values(const run *r, uint32_t support, int32_t carrier, double *to);
