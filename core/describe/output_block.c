@@ -49,9 +49,9 @@ static void read_fields(description *d, registry *plugins, reader *r)
     for (int f = 0; status <= 0 && f < d->fields.n; f++)
         if (d->fields.f[f].support == PF_ON_MESH)
             o->field[o->n_field++] = f;
-    o->kept = status <= 0 ? ~0u : 0;
     for (int f = 0; status <= 0 && f < d->shown_fields.n; f++)
         o->shown[o->n_shown++] = f;
+    o->kept = status <= 0 ? ~0u : 0;
     for (int i = 0; status > 0 && i < n; i++) {
         int f = fields_find(&d->fields, list[i]), shown = fields_find(&d->shown_fields, list[i]), twice = 0;
 

@@ -81,7 +81,7 @@ static void make_empty(const int32_t *body, int64_t n_node, int inside, int widt
 typedef struct grid_file {
     text head;
     int n;
-    block b[3 * SPACE_MAX_FIELDS + 5];
+    block b[4 * SPACE_MAX_FIELDS + 5];
     uint64_t offset; /* of the next block */
 } grid_file;
 
@@ -207,7 +207,8 @@ int vtu_write(const char *path, const space *s, const int *fields, int n_field, 
 int vtu_write_more(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
                    const vtu_bodies *bodies, const vtu_more *more, error *err)
 {
-    const vtu_more own = {s, fields, n_field, x, bodies ? bodies->empty : 0, 0, NULL};
+    const vtu_more own = {s,   fields, n_field, x, bodies ? bodies->empty : 0, bodies ? bodies->empty_outside : 0,
+                          NULL};
     const int32_t *body = bodies ? bodies->body : NULL;
     grid_file g = {0};
     arena a = {0};

@@ -69,10 +69,10 @@ static int write_units(const run *r, text *units, error *err)
     for (int f = 0; f < r->p->space.n_field; f++)
         text_add(units, "%s\n  \"%s\": \"%s\"", units->n > 1 ? "," : "", r->p->space.field[f].name,
                  r->p->space.field[f].unit);
-    for (int f = 0; f < r->p->space.kept.n; f++)
-        text_add(units, ",\n  \"%s\": \"%s\"", r->p->space.kept.field[f].name, r->p->space.kept.field[f].unit);
     for (int f = 0; f < n; f++)
         text_add(units, ",\n  \"%s\": \"%s\"", shown[f].name, shown[f].unit);
+    for (int f = 0; f < r->p->space.kept.n; f++)
+        text_add(units, ",\n  \"%s\": \"%s\"", r->p->space.kept.field[f].name, r->p->space.kept.field[f].unit);
     text_add(units, "\n}\n");
     snprintf(path, sizeof path, "%s/units.json", r->dir);
     return units->failed ? error_memory(err, path, 0) : file_write(path, units->s, units->n, err);
@@ -149,7 +149,7 @@ static int room_for_file(run *r, error *err)
 int output_fields(run *r, double t, error *err)
 {
     const output_spec *out = &r->p->description.output;
-    vtu_bodies bodies = {.body = r->body_of_node, .empty = r->empty};
+    vtu_bodies bodies = {.body = r->body_of_node, .empty = r->empty, .empty_outside = r->empty_outside};
     vtu_cells cells;
     arena memory = {0};
     int status;
