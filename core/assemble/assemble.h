@@ -84,10 +84,13 @@ typedef struct moving_frame {
     void *ctx;
     /* At point x of a cell: w [dim]; history of each such field, one after the other.  0: w = 0. */
     int (*at)(void *ctx, int64_t cell, const double *x, double *w, double *history);
-    /* Where the path through x was at the end of the last step: the cell and the place in it.  outside: x is meant
-     * as a point of the fluid, also where a body covers it.  0: here. */
-    int (*before)(void *ctx, int64_t cell, const double *x, int outside, located *then);
+    /* Where the point of this body (-1: of the fluid) that is at x now was at the end of the last step: the cell
+     * and the place in it.  0: here.  BEFORE_BESIDE: x is not of the body (the fluid), what is beside it was there.
+     */
+    int (*before)(void *ctx, int64_t cell, const double *x, int body, located *then);
 } moving_frame;
+
+enum { BEFORE_MOVED = 1, BEFORE_BESIDE = 2 };
 
 /* One distinct quantity at the points: (field, eval), data of one use, a key of the bodies, or a property. */
 typedef struct plan_input {
@@ -280,6 +283,26 @@ typedef struct assembly_power {
     double (*use)[POWERS]; /* [assembly.n_use]                 */
 } assembly_power;
 
+/* What shown terms of a class give.  Items stand in the order of where they come from (assembly_class.source),
+ * which hangs on no number of threads. */
+typedef struct shown_class {
+    int field[ASSEMBLE_MAX_TESTS]; /* of each output: the field of `to` that it is projected on, -1: its integral */
+    int at[ASSEMBLE_MAX_TESTS];    /* of an integral: its first column in `sum`                       */
+    int width, projects;           /* columns; whether any is projected                              */
+    int64_t *item;                 /* [n_item] number in the class                                     */
+    double *sum;                   /* [n_item][width] integrals over the item                         */
+    double *mass; /* [n_item][n (n+1) / 2] integrals of products of vertex functions, upper half; NULL: !projects */
+    double *measure; /* [n_item] */
+} shown_class;
+
+/* Where it goes.  The owner fills in `to` and the first two lines of each class. */
+typedef struct assembly_shown {
+    const space *to;     /* fields of order 1 that are projected                                   */
+    double *load;        /* [to->n_dof] integrals of the quantities times the vertex functions      */
+    shown_class *class_; /* [n_class] */
+    arena memory;        /* of what the items have                                         */
+} assembly_shown;
+
 /* Where the unknowns stand; all vectors have n_dof entries. */
 typedef struct assembly_state {
     double t, dt, shift;
@@ -292,6 +315,7 @@ typedef struct assembly_state {
     double faded;              /* part of the terms with PF_CONTINUATION that is left out: 0 none, 1 all of them */
     uint32_t only;             /* not 0: only terms with one of these flags, or of one of these kinds */
     assembly_power *power;     /* NULL: nobody asks */
+    struct assembly_shown *shown; /* of assembly_show */
 } assembly_state;
 
 int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int n_spec, int n_thread, error *err);
@@ -302,6 +326,9 @@ int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int 
  * named. ERR_PLUGIN or ERR_CONVERGE (err->retry) if a term fails. */
 int assembly_run(assembly *a, const assembly_state *s, double *residual, double *value, int diagnose, error *err);
 
+/* Evaluates an assembly of shown terms; to s->shown.  ERR_PLUGIN if a term fails, or gives NaN or infinity at a
+ * point that has a weight: it is named. */
+int assembly_show(assembly *a, const assembly_state *s, error *err);
 /* The memory that terms keep at the end of a step, of its solution; kept[space->kept.n_value] holds that of its
  * start, and is overwritten where a term keeps something.  Errors as assembly_run. */
 int assembly_keep(assembly *a, const assembly_state *s, double *kept, error *err);

@@ -25,6 +25,10 @@ static int run_batch(const assembly *a, const assembly_class *c, const assembly_
         w->failed_batch = batch;
         return 1;
     }
+    if (s->shown) {
+        w->failed_batch = show_batch(a, c, s, batch, w) ? batch : -1;
+        return w->failed_batch >= 0;
+    }
     memset(w->vec, 0, (size_t)c->layout.n * sizeof *w->vec);
     for (int f = 0; f < a->space->n_field; f++) {
         element_vector(a, c, f, w);
@@ -103,7 +107,8 @@ static int run_class(assembly *a, assembly_class *c, const assembly_state *s, do
     TRY(shares_clear(a, c, value != NULL, err));
     for (int round = 0; round < SLAB_ROUNDS; round++)
         TRY(run_slabs(a, c, s, round * c->n_slab, c->n_slab, residual, value, diagnose, err));
-    shares_add(a, c, residual, value);
+    if (residual)
+        shares_add(a, c, residual, value);
     return run_slabs(a, c, s, SLAB_ROUNDS * c->n_slab, 1, residual, value, diagnose, err);
 }
 
@@ -123,6 +128,18 @@ int assembly_run(assembly *a, const assembly_state *s, double *residual, double 
     close_idle(a->space, a->idle, residual, value);
     if (s->power)
         power_sum(a, s->power);
+    return 0;
+}
+
+int assembly_show(assembly *a, const assembly_state *s, error *err)
+{
+    TRY(items_take(a, s->bodies, err));
+    TRY(show_begin(a, s->shown, err));
+    for (int k = 0; k < a->n_class; k++)
+        if (run_class(a, &a->class_[k], s, NULL, NULL, 0, err)) {
+            err->retry = 0; /* the step is over */
+            return err->code;
+        }
     return 0;
 }
 

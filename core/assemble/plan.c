@@ -49,6 +49,7 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
 {
     const pf_term *t = use->term;
     plan_use *p = &c->use[c->n_use++];
+    const int shows = term_kind(t) == TERM_SHOWS; /* nothing is solved for: no derivatives */
 
     p->use = use;
     p->inside = -1;
@@ -62,17 +63,21 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
         p->in[k] = slots_find(c, s, use, k, err);
         if (p->in[k] < 0)
             return err->code;
-        TRY(slots_trial(c, s, &t->in[k], &p->trial[k], &p->slope[k], err));
+        p->trial[k] = p->slope[k] = -1;
+        if (!shows)
+            TRY(slots_trial(c, s, &t->in[k], &p->trial[k], &p->slope[k], err));
     }
     for (uint32_t o = 0; o < t->n_out; o++) {
         const int keeps = t->out[o].eval == PF_STATE;
 
-        p->out[o] = keeps ? -1 : slots_basis(c, s, c->test, &c->n_test, &t->out[o], err);
+        p->out[o] = keeps   ? -1
+                    : shows ? slots_shown(c, s, &t->out[o], err)
+                            : slots_basis(c, s, c->test, &c->n_test, &t->out[o], err);
         p->kept[o] = keeps ? slots_input(c, s, &t->out[o], NULL, NULL, err) : -1;
         if (p->out[o] < 0 && p->kept[o] < 0)
             return err->code;
         p->equations |= !keeps;
-        for (uint32_t k = 0; k < t->n_in && !keeps; k++)
+        for (uint32_t k = 0; k < t->n_in && !keeps && !shows; k++)
             if (!t->depends || t->depends[o * t->n_in + k])
                 couple(c, p, o, k, s->mesh->dim);
     }
@@ -180,7 +185,8 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
     for (int t = 0; t < c->n_test; t++) {
         c->test[t].at = c->test_size;
         c->test_size += (size_t)c->test[t].n_comp;
-        c->serial |= s->field[c->test[t].field].support == PF_ON_PROBLEM; /* one row for all cells */
+        c->serial |= c->test[t].field >= 0 &&
+                     s->field[c->test[t].field].support == PF_ON_PROBLEM; /* one row for all cells */
         for (int r = 0; r < c->n_trial; r++)
             if (c->block[t][r] == 0) {
                 c->block[t][r] = c->block_size;

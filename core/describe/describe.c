@@ -18,7 +18,8 @@ int describe(description *d, case_file *c, registry *r, warning_list *w, error *
     TRY(describe_boundaries(d, err));
     TRY(describe_bodies(d, err));
     describe_settings(d);
-    TRY(describe_output(d, err));
+    TRY(describe_shown(d, err));
+    TRY(describe_output(d, r, err));
     describe_check_formulation(d);
     describe_check_box(d);
     describe_check_terms(d);

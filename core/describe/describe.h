@@ -104,11 +104,15 @@ typedef struct output_spec {
     double every;        /* time between two files of fields */
     double tables_every; /* time between two rows of tables; 0: a row a step */
     int n_field, field[TERM_MAX_FIELDS];
+    uint32_t kept; /* bit f: memory f is written, too */
     int n_probe, n_line, n_force;
     probe_spec probe[DESCRIBE_MAX_PROBES];
     line_spec line[DESCRIBE_MAX_PROBES];
-    const char *force[MESH_MAX_NAMES]; /* boundaries whose reactions are wanted */
-    double about[3];                   /* point that torques refer to           */
+    const char *force[MESH_MAX_NAMES];   /* boundaries whose reactions are wanted */
+    double about[3];                     /* point that torques refer to           */
+    int n_shown, shown[TERM_MAX_FIELDS]; /* fields of shown_fields to write      */
+    int n_integral;                      /* boundaries whose integrals are wanted; -1: all that have a name */
+    const char *integral[MESH_MAX_NAMES];
 } output_spec;
 
 /* solve {}. */
@@ -147,6 +151,7 @@ typedef struct description {
     term_use use[DESCRIBE_MAX_TERMS];                /* terms that are on and give equations */
     const case_block *use_block[DESCRIBE_MAX_TERMS]; /* lines that switch them on */
     term_list law, shown;                            /* those that publish properties; that give what is shown */
+    field_list shown_fields;                         /* what those show as fields, called like their slots */
     int n_started; /* of all these: the first so many have been made ready (pf_term.init) */
     int n_replaced;
     replacement replaced[DESCRIBE_MAX_TERMS];
@@ -189,6 +194,8 @@ void describe_destroy(description *d);
 
 /* Whether a term of the case acts on such points (enum pf_where). */
 int describe_has(const description *d, int where);
+/* Whether a term whose results are shown does. */
+int describe_shows(const description *d, int where);
 /* Whether the mesh is a box that nothing bends, so that its sides are known before it is made. */
 int describe_is_box(const description *d);
 /* The field that is the bodies' velocity, or angular velocity (spin = 1); -1: none. */
@@ -205,7 +212,11 @@ void describe_properties(description *d, registry *r);
 int describe_boundaries(description *d, error *err);
 int describe_bodies(description *d, error *err);
 void describe_settings(description *d);
-int describe_output(description *d, error *err);
+/* "plugin.term" of a plugin that can be found which shows a field of this name, or NULL. */
+const char *describe_who_shows(registry *r, const char *name);
+/* What the shown terms show, before output{}. */
+int describe_shown(description *d, error *err);
+int describe_output(description *d, registry *r, error *err);
 /* Numbers that terms need, and fields that nothing determines. */
 void describe_check_terms(const description *d);
 /* Bodies and the terms that move them and couple them with the flow. */

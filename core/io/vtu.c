@@ -50,7 +50,7 @@ static int file_components(const field_spec *f, int dim, int *of)
 }
 
 /* Values of a field at all nodes, v[n_node][components in the file]. */
-static void nodal(const space *s, int f, const double *x, const vtu_bodies *bodies, double *v)
+static void nodal(const space *s, int f, const double *x, double *v)
 {
     const mesh *m = s->mesh;
     const field_spec *g = &s->field[f];
@@ -67,8 +67,13 @@ static void nodal(const space *s, int f, const double *x, const vtu_bodies *bodi
             for (int k = 0; k < width; k++)
                 v[(int64_t)cell[i] * width + k] = of[k] < 0 ? 0 : own[of[k]];
         }
-    for (int64_t n = 0; bodies && bodies->empty >> f & 1 && n < m->n_node; n++)
-        for (int k = 0; bodies->body[n] >= 0 && k < width; k++)
+}
+
+/* No values at nodes inside of bodies, or outside of them. */
+static void make_empty(const int32_t *body, int64_t n_node, int inside, int width, double *v)
+{
+    for (int64_t n = 0; n < n_node; n++)
+        for (int k = 0; (body[n] >= 0) == inside && k < width; k++)
             v[n * width + k] = NAN;
 }
 
@@ -76,7 +81,7 @@ static void nodal(const space *s, int f, const double *x, const vtu_bodies *bodi
 typedef struct grid_file {
     text head;
     int n;
-    block b[SPACE_MAX_FIELDS + 5];
+    block b[4 * SPACE_MAX_FIELDS + 5];
     uint64_t offset; /* of the next block */
 } grid_file;
 
@@ -133,24 +138,42 @@ static int add_mesh(grid_file *g, const mesh *m, arena *a, error *err)
     return 0;
 }
 
-static int add_fields(grid_file *g, const space *s, const int *fields, int n_field, const double *x,
-                      const vtu_bodies *bodies, arena *a, error *err)
+static int add_fields(grid_file *g, const vtu_more *of, const int32_t *body, arena *a, error *err)
 {
-    int64_t n = s->mesh->n_node;
+    const space *s = of->space;
+    int64_t n = s ? s->mesh->n_node : 0;
 
-    text_add(&g->head, "<PointData>\n");
-    for (int i = 0; i < n_field; i++) {
-        const field_spec *f = &s->field[fields[i]];
-        int of[VALUE_MAX], width = file_components(f, s->mesh->dim, of);
+    for (int i = 0; i < of->n_field; i++) {
+        const field_spec *f = &s->field[of->field[i]];
+        int at[VALUE_MAX], width = file_components(f, s->mesh->dim, at);
         double *values;
 
         ARENA_NEW(a, values, n * width, err);
-        nodal(s, fields[i], x, bodies, values);
+        nodal(s, of->field[i], of->x, values);
+        if (body && of->empty >> of->field[i] & 1)
+            make_empty(body, n, 1, width, values);
+        if (body && of->empty_outside >> of->field[i] & 1)
+            make_empty(body, n, 0, width, values);
         add_array(g, "Float64", f->name, f->unit, width, values, n * width * 8);
     }
-    if (bodies)
-        add_array(g, "Int32", "body", NULL, 1, bodies->body, n * 4);
-    text_add(&g->head, "</PointData>\n");
+    return 0;
+}
+
+static int add_cells(grid_file *g, const mesh *m, const vtu_cells *cells, arena *a, error *err)
+{
+    text_add(&g->head, "<CellData>\n");
+    for (int i = 0; i < cells->n; i++) {
+        const field_spec *f = cells->field[i];
+        int of[VALUE_MAX], width = file_components(f, m->dim, of);
+        double *values;
+
+        ARENA_NEW(a, values, m->n_cell * width, err);
+        for (int64_t e = 0; e < m->n_cell; e++)
+            for (int k = 0; k < width; k++)
+                values[e * width + k] = of[k] < 0 ? 0 : cells->value[i][e * f->n_comp + of[k]];
+        add_array(g, "Float64", f->name, f->unit, width, values, m->n_cell * width * 8);
+    }
+    text_add(&g->head, "</CellData>\n");
     return 0;
 }
 
@@ -176,6 +199,15 @@ static int put_together(const char *path, const grid_file *g, arena *a, error *e
 int vtu_write(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
               const vtu_bodies *bodies, error *err)
 {
+    return vtu_write_more(path, s, fields, n_field, x, t, bodies, &(vtu_more){0}, err);
+}
+
+int vtu_write_more(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
+                   const vtu_bodies *bodies, const vtu_more *more, error *err)
+{
+    const vtu_more own = {s,   fields, n_field, x, bodies ? bodies->empty : 0, bodies ? bodies->empty_outside : 0,
+                          NULL};
+    const int32_t *body = bodies ? bodies->body : NULL;
     grid_file g = {0};
     arena a = {0};
     int status;
@@ -190,8 +222,16 @@ int vtu_write(const char *path, const space *s, const int *fields, int n_field, 
         text_add(&g.head, "</DataArray>\n</FieldData>\n");
     }
     status = add_mesh(&g, s->mesh, &a, err);
+    text_add(&g.head, "<PointData>\n");
     if (!status)
-        status = add_fields(&g, s, fields, n_field, x, bodies, &a, err);
+        status = add_fields(&g, &own, body, &a, err);
+    if (!status)
+        status = add_fields(&g, more, body, &a, err);
+    if (body)
+        add_array(&g, "Int32", "body", NULL, 1, body, s->mesh->n_node * 4);
+    text_add(&g.head, "</PointData>\n");
+    if (!status && more->cells && more->cells->n)
+        status = add_cells(&g, s->mesh, more->cells, &a, err);
     text_add(&g.head, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
     if (!status)
         status = put_together(path, &g, &a, err);

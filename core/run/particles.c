@@ -3,6 +3,7 @@
  * Bodies in the results: particles.csv (a row a body and step) and, with every file of fields, their
  * outlines as particles_NNNNN.vtp. */
 #include "run/run.h"
+#include "run/showing.h"
 
 #include "io/vtp.h"
 #include "io/vtu.h"
@@ -18,24 +19,28 @@ static const char *const columns_3d[] = {
     "t",  "id", "x",  "y",         "z",         "q0",        "q1",          "q2", "q3",
     "u",  "v",  "w",  "omega_x",   "omega_y",   "omega_z",   "fx",          "fy", "fz",
     "tx", "ty", "tz", "contact_x", "contact_y", "contact_z", "active_nodes"};
-enum { COLUMNS_2D = 14, COLUMNS_3D = 25 };
+enum { COLUMNS_2D = 14, COLUMNS_3D = 25, MOST_SHOWN = 192 };
 
 int particles_plan(run *r, error *err)
 {
-    char path[4600], name[OFF_MESH_MOST][OFF_MESH_NAME];
-    const char *column[COLUMNS_3D + OFF_MESH_MOST];
+    char path[4600], name[2 * OFF_MESH_MOST][OFF_MESH_NAME], own[MOST_SHOWN][96];
+    const char *column[COLUMNS_3D + 2 * OFF_MESH_MOST + MOST_SHOWN], *unit[MOST_SHOWN];
     const int dim = r->p->description.dim, n = dim == 2 ? COLUMNS_2D : COLUMNS_3D;
-    int more;
+    int more, n_shown;
 
     if (r->p->bodies.n == 0)
         return 0;
-    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D + OFF_MESH_MOST, err);
+    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D + 2 * OFF_MESH_MOST + MOST_SHOWN, err);
     memcpy(column, dim == 2 ? columns_2d : columns_3d, (size_t)n * sizeof *column);
     more = off_mesh_columns(r, PF_ON_PARTICLE, name);
+    more += kept_columns(r, name + more);
     for (int i = 0; i < more; i++)
         column[n + i] = name[i];
+    n_shown = showing_body_columns(r, MOST_SHOWN, own, unit);
+    for (int i = 0; i < n_shown; i++)
+        column[n + more + i] = own[i];
     snprintf(path, sizeof path, "%s/particles.csv", r->dir);
-    return table_create(&r->particles, path, column, n + more, err);
+    return table_create(&r->particles, path, column, n + more + n_shown, err);
 }
 
 /* How many covered cells of all bodies share each node. */
@@ -113,7 +118,9 @@ int particles_write(run *r, double t, error *err)
         for (int i = 0; i < dim; i++)
             *at++ = r->before_steps ? NAN : u >= 0 ? -contact[u + i] : 0;
         *at++ = round(active[k]);
-        off_mesh_values(r, PF_ON_PARTICLE, space_body_carrier(&p->space, k), at);
+        at = off_mesh_values(r, PF_ON_PARTICLE, space_body_carrier(&p->space, k), at);
+        at = kept_of_body(r, k, at);
+        TRY(showing_body_row(r, k, at, err));
         TRY(table_add(&r->particles, row, err));
     }
     return 0;

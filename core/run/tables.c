@@ -2,6 +2,7 @@
  *
  * forces.csv and probes.csv: a row a step, or one wherever they are due. */
 #include "run/run.h"
+#include "run/showing.h"
 
 #include "base/list.h"
 
@@ -10,27 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const char velocity_name[] = "uvw";
-
-int output_has_columns(const field_spec *f)
-{
-    return f->support != PF_ON_PARTICLE; /* those are in particles.csv */
-}
-
-int output_components(const field_spec *f, const char *prefix, char (*name)[96])
-{
-    if (!output_has_columns(f))
-        return 0;
-    for (int k = 0; k < f->n_comp; k++)
-        if (f->n_comp == 1)
-            snprintf(name[k], 96, "%s%s", prefix, f->name);
-        else if (strcmp(f->name, "u") == 0)
-            snprintf(name[k], 96, "%s%c", prefix, velocity_name[k]);
-        else
-            snprintf(name[k], 96, "%s%s_%s", prefix, f->name, term_component((uint32_t)f->shape, f->n_comp, k));
-    return f->n_comp;
-}
 
 typedef struct columns {
     int n, room;
@@ -136,6 +116,8 @@ static int plan_probes(run *r, columns *c, text *units, error *err)
 {
     const problem *p = r->p;
     const output_spec *o = &p->description.output;
+    const field_spec *shown;
+    const int n_shown = showing_fields(r, &shown);
     char(*name)[96] = more(c, 1, "s");
 
     if (name)
@@ -150,6 +132,18 @@ static int plan_probes(run *r, columns *c, text *units, error *err)
                        : NULL;
             if (name)
                 output_components(&p->space.field[f], prefix, name);
+        }
+        for (int f = 0; f < n_shown; f++) {
+            name = more(c, shown[f].n_comp, shown[f].unit);
+            if (name)
+                output_components(&shown[f], prefix, name);
+        }
+        for (int f = 0; f < p->space.kept.n; f++) {
+            const field_spec *g = &p->space.kept.field[f];
+
+            name = g->support == PF_AT_POINTS ? more(c, g->n_comp, g->unit) : NULL;
+            if (name)
+                output_components(g, prefix, name);
         }
         name = p->bodies.n ? more(c, 1, "1") : NULL;
         if (name)
@@ -252,8 +246,11 @@ static int add_probes(run *r, double t, double *row, error *err)
 {
     const problem *p = r->p;
     const output_spec *o = &p->description.output;
+    const field_spec *shown;
+    const int n_shown = showing_fields(r, &shown);
     double *at = row;
 
+    TRY(showing_take(r, err));
     *at++ = t;
     for (int i = 0; i < o->n_probe; i++) {
         const body_place *in = inside_place(r, o->probe[i].x);
@@ -262,10 +259,16 @@ static int add_probes(run *r, double t, double *row, error *err)
             if (!output_has_columns(&p->space.field[f]))
                 continue;
             locate_value(&p->space, &r->probe_at[i], f, r->shown, at, NULL);
-            if (in)
-                inside_value(r, in, f, o->probe[i].x, at);
+            inside_value(r, in, f, o->probe[i].x, at);
             at += p->space.field[f].n_comp;
         }
+        for (int f = 0; f < n_shown; at += shown[f++].n_comp)
+            showing_value(r, f, &r->probe_at[i], in, at);
+        for (int f = 0; f < p->space.kept.n; f++)
+            if (p->space.kept.field[f].support == PF_AT_POINTS) {
+                kept_value(&p->space.kept, f, p->state.kept, r->probe_at[i].cell, r->probe_at[i].xi, at);
+                at += p->space.kept.field[f].n_comp;
+            }
         if (p->bodies.n)
             *at++ = in ? in->body : -1;
     }
@@ -296,6 +299,8 @@ int tables_add(run *r, double t, error *err)
         status = add_forces(r, t, row, err);
     if (!status && o->n_probe)
         status = add_probes(r, t, row, err);
+    if (!status)
+        status = showing_row(r, t, err);
     if (!status)
         status = problem_table_add(r, t, err);
     free(row);
