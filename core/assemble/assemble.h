@@ -20,12 +20,14 @@
 #include "term/term.h"
 
 enum {
-    ASSEMBLE_MAX_INPUTS = 32,
+    ASSEMBLE_MAX_INPUTS = 64,
     ASSEMBLE_MAX_TESTS = 16,
     ASSEMBLE_MAX_USES = 32,
     ASSEMBLE_PAD = 3,
     SURFACE_POINTS = 16,
     ASSEMBLE_CELL_DEGREE = 5,
+    ASSEMBLE_MAX_LAWS = 8,
+    ASSEMBLE_MAX_CHAINS = 24,
     SLAB_ROUNDS = 2,            /* of slabs that run at once */
     ELEMENT_MOST_ENTRIES = 1024 /* of an element vector */
 };
@@ -37,6 +39,8 @@ typedef struct near_pair {
     double gap, h, at[3], normal[3]; /* normal: from the other to the first; at: in the middle of the gap */
     double size[2], density[2];      /* of each; of a wall infinite and 0 */
     double other_centre[3];          /* of the image that is near; of a wall 0 */
+    int32_t cell; /* that the middle of the gap lies in, -1: none; its reference coordinates there */
+    double ref[3];
 } near_pair;
 
 /* The bodies at one instant, as the assembly needs them: points and weights of the classes that follow them, and
@@ -85,24 +89,28 @@ typedef struct moving_frame {
     int (*before)(void *ctx, int64_t cell, const double *x, int outside, located *then);
 } moving_frame;
 
-/* One distinct quantity at the points: (field, eval), data of one use, or a key of the bodies. */
+/* One distinct quantity at the points: (field, eval), data of one use, a key of the bodies, or a property. */
 typedef struct plan_input {
-    int field; /* -1: data, a key, or memory: */
+    int field; /* -1: data, a key, a property, or memory: */
     int kept;  /* its number (space/kept.h), or -1 */
     uint32_t eval;
     int n_comp;
     size_t at; /* offset in units of n_q v8 */
     const value *data;
-    const double *key; /* [n_body][n_comp] */
-    v8 *table;         /* data that is a function: [batch][n_comp][n_q] */
+    const double *key;    /* [n_body][n_comp] */
+    v8 *table;            /* data that is a function: [batch][n_comp][n_q] */
+    const term_use *law;  /* who publishes it */
+    const double *number; /* a property that nobody publishes: the number of a term */
+    int frozen;           /* PF_PAIR: a field on the mesh, at the last step in the middle of the gap */
 } plan_input;
 
 /* What of a basis function.  Laplacians are of trial functions only.  On pairs the value is what differs
- * (PF_DEFECT), and there are the values of the first body and of the other alone. */
-enum basis_kind { BASIS_VALUE, BASIS_GRAD, BASIS_LAPLACE, BASIS_FIRST, BASIS_OTHER, BASIS_KINDS };
+ * (PF_DEFECT), and there are the values of the first body and of the other alone; in bad cells (PF_CUT) it is what
+ * differs, too, and there are trial functions of their own. */
+enum basis_kind { BASIS_VALUE, BASIS_GRAD, BASIS_LAPLACE, BASIS_FIRST, BASIS_OTHER, BASIS_OWN, BASIS_KINDS };
 
-/* Rows of workspace.basis: value, d/dx, d/dy, d/dz, Laplacian; on pairs what differs, first, other. */
-enum { FIRST_ROW = 1, OTHER_ROW = 2, LAPLACE_ROW = 4, BASIS_ROWS = 5, TEST_ROWS = 4 };
+/* Rows of workspace.basis: value, d/dx, d/dy, d/dz, Laplacian, own value; on pairs what differs, first, other. */
+enum { FIRST_ROW = 1, OTHER_ROW = 2, LAPLACE_ROW = 4, OWN_ROW = 5, BASIS_ROWS = 6, TEST_ROWS = 4 };
 
 /* One distinct (field, kind) of test or trial functions. */
 typedef struct plan_basis {
@@ -122,7 +130,22 @@ typedef struct plan_use {
     int equations;             /* some output enters an equation */
     int trial[TERM_MAX_SLOTS]; /* index into trial[], -1 where no unknown        */
     int slope[TERM_MAX_SLOTS]; /* of du/dt in the fluid: its gradient there, for the moving frame; else -1 */
+    int varies;                /* it takes a property that depends on unknowns */
 } plan_use;
+
+/* A publisher of properties, evaluated before the terms; its inputs and outputs are all among input[]. */
+typedef struct plan_law {
+    const term_use *use;
+    int in[TERM_MAX_SLOTS], out[TERM_MAX_SLOTS];
+} plan_law;
+
+/* d property / d unknown: [component of the property][component of the slot], by way of other properties, too. */
+typedef struct plan_chain {
+    int property, unknown; /* index into input[] */
+    const pf_slot *slot;   /* the unknown, as the publisher takes it */
+    int trial, slope;      /* as in plan_use */
+    size_t at;             /* in workspace.chain, units of n_q v8 */
+} plan_chain;
 
 /* Where the unknowns of an item stand in its element vector and matrix: carrier by carrier as in its group, and
  * there field by field and component by component as in the matrix, so that the columns of a carrier lie together.
@@ -178,13 +201,15 @@ typedef struct assembly_class {
     double (*dn_ref[6][3])[3];
     double (*d2n_ref[6][3])[FE_SECOND]; /* where Laplacians are asked for, else NULL; order 2 is the mapping's */
 
-    int n_use, n_input, n_test, n_trial;
+    int n_use, n_input, n_test, n_trial, n_law, n_chain;
     plan_use use[ASSEMBLE_MAX_USES];
+    plan_law law[ASSEMBLE_MAX_LAWS]; /* a law after those whose properties it takes */
+    plan_chain chain[ASSEMBLE_MAX_CHAINS];
     plan_input input[ASSEMBLE_MAX_INPUTS];
     plan_basis test[ASSEMBLE_MAX_TESTS], trial[ASSEMBLE_MAX_TESTS];
     size_t block[ASSEMBLE_MAX_TESTS][ASSEMBLE_MAX_TESTS]; /* offset of D block, SIZE_MAX: no coupling */
-    size_t in_size, test_size, block_size, out_size, jac_size, room_size, scratch_size;
-    int order_used[3], grad_used[3], laplace_used[3];
+    size_t in_size, test_size, block_size, out_size, jac_size, room_size, scratch_size, chain_size, product_size;
+    int order_used[3], grad_used[3], laplace_used[3], own_used[3];
     int any_laplace, any_metric, any_kept; /* any_kept: some term reads or keeps memory */
     double *kept_weight; /* [n_q][points of space.kept] of the values at a cell's points; NULL: n_q are these */
     int kept_stamp;      /* of the moving frame that these values come along: */

@@ -31,12 +31,13 @@ typedef struct workspace {
      * all points, in scale; room for numbers at points by reference derivatives, and of the stages. */
     int boxes;
     v8 scale[3], *inverse, *reference, *stages;
-    v8 *basis[3][BASIS_ROWS]; /* [order][value, d/dx, d/dy, d/dz, Laplacian]: [i][n_q], i padded; NULL: not used, or
-                               the class has a tensor rule */
+    v8 *basis[3][BASIS_ROWS]; /* [order][value, d/dx, d/dy, d/dz, Laplacian, own value]: [i][n_q], i padded; NULL:
+                               not used, or the class has a tensor rule */
     v8 *dof;                  /* nodal values of one field                               */
     v8 *rate;                 /* room: a field and its gradient */
     const v8 *frame;          /* w and history of this batch, see assembly_class; NULL: none */
     v8 *in, *test, *block, *out, *jac, *room;
+    v8 *chain, *product; /* d property / d unknown, see plan_chain; d output / d property times that */
     uint8_t *filled;     /* [block_size] 1: some term has that entry of D; others have no value */
     v8 *g;               /* one strip of D B_j                                      */
     v8 *vec, *mat;       /* element vector and matrix, see element_layout            */
@@ -82,6 +83,16 @@ int items_room(assembly_class *c, int64_t n, arena *memory, error *err);
 int items_order(assembly *a, assembly_class *c, arena *memory, error *err);
 /* Gives the classes that follow the bodies their items, if these are others than before (items.c). */
 int items_take(assembly *a, const body_points *b, error *err);
+/* slots.c: numbers in the lists of the class, negative with *err.  An input that is no property (data, key: where
+ * what is no field comes from, or NULL); the same, or a property, of slot k of a term; a test or trial function;
+ * trial functions of an unknown and, for a rate in the fluid, its slopes, else -1.  Then the room that a term
+ * needs. */
+int slots_input(assembly_class *c, const space *s, const pf_slot *slot, const value *data, const double *key,
+                error *err);
+int slots_find(assembly_class *c, const space *s, const term_use *use, uint32_t k, error *err);
+int slots_basis(assembly_class *c, const space *s, plan_basis *list, int *n, const pf_slot *slot, error *err);
+int slots_trial(assembly_class *c, const space *s, const pf_slot *slot, int *trial, int *slope, error *err);
+void slots_sizes(assembly_class *c, const pf_term *t, int dim);
 int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err);
 /* Room for the values of the case's functions at the points of a class. */
 int inputs_room(arena *memory, assembly_class *c, error *err);
@@ -142,6 +153,18 @@ void inputs_values(const assembly *a, const assembly_class *c, const assembly_st
 /* The unknowns that the rows of the class belong to, as their test functions enter (value or gradient). */
 void inputs_unknowns(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                      workspace *w);
+/* properties.c.  Of a batch: what is published there and, with a matrix, w->chain.  Nonzero, with w->report, if a
+ * law fails, or gives no number. */
+int properties_evaluate(const assembly_class *c, int64_t batch, int with_matrix, int diagnose, pf_batch *b,
+                        workspace *w);
+/* The properties that a term takes lie where it makes sense (pf_slot.min, max), at points that count. */
+int properties_fit(const assembly_class *c, const plan_use *p, const pf_batch *b, workspace *w);
+/* d output / d property, [n_out][components of the property], times the chain: [n_out][components of its slot]. */
+const double *properties_product(const assembly_class *c, const plan_chain *chain, const double *jac, int n_out,
+                                 int dim, workspace *w);
+/* The field of an input that is frozen, of the pairs of a batch (properties_pairs.c). */
+void properties_frozen(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                       const plan_input *in, v8 *out);
 /* Adds the power of a term with outputs `out` to w->power (power.c); the outputs are overwritten. */
 int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, const plan_use *p, double factor,
               const pf_batch *b, const double *const *in, double *const *out, workspace *w);
@@ -198,7 +221,7 @@ static inline int64_t assemble_item(const assembly_class *c, int64_t batch, int 
 /* First row of a kind in workspace.basis; what a term calls it. */
 static inline int assemble_row(enum basis_kind kind)
 {
-    static const int row[BASIS_KINDS] = {0, 1, LAPLACE_ROW, FIRST_ROW, OTHER_ROW};
+    static const int row[BASIS_KINDS] = {0, 1, LAPLACE_ROW, FIRST_ROW, OTHER_ROW, OWN_ROW};
 
     return row[kind];
 }

@@ -118,6 +118,37 @@ static int find_nan_derivative(const pf_term *t, const pf_batch *b, double *cons
     return 0;
 }
 
+/* Whether the derivative by slot k, a property, is: the terms' own Jacobians give it, needed or not. */
+static int is_wanted(const assembly_class *c, const plan_use *p, uint32_t k)
+{
+    return p->use->term->in[k].eval == PF_PROPERTY &&
+           (c->input[p->in[k]].law || term_derives_by_hand(p->use->term, p->use->how));
+}
+
+/* The derivative of output o by slot k, a property, and that of the property by the unknowns it depends on. */
+static void add_chained(const assembly_class *c, const assembly_state *s, const plan_use *p, uint32_t o, uint32_t k,
+                        const double *jac, int dim, workspace *w)
+{
+    const pf_slot *out = &p->use->term->out[o];
+    const size_t nq = (size_t)c->n_q, ld = nq * PF_LANES;
+
+    for (int i = 0; i < c->n_chain; i++) {
+        const plan_chain *chain = &c->chain[i];
+        const double factor = strength(s, p) * (chain->slot->eval == PF_DOT ? s->shift : 1), *product;
+        size_t block = c->block[p->out[o]][chain->trial];
+
+        if (chain->property != p->in[k] || block == SIZE_MAX || factor == 0)
+            continue;
+        product = properties_product(c, chain, jac, term_components(out->shape, dim), dim, w);
+        add_block(out, chain->slot, c->trial[chain->trial].n_comp, factor, product, dim, ld,
+                  (double *)(w->block + block * nq), w->filled + block);
+        block = chain->slope >= 0 && w->frame ? c->block[p->out[o]][chain->slope] : SIZE_MAX;
+        if (block != SIZE_MAX && (s->frame->fields >> c->trial[chain->slope].field & 1))
+            history_jacobian(out, chain->slot, c->trial[chain->slope].n_comp, strength(s, p), product, dim, ld,
+                             (const double *)w->frame, (double *)(w->block + block * nq), w->filled + block);
+    }
+}
+
 static int add_jacobian(const assembly_class *c, const assembly_state *s, const plan_use *p, const pf_batch *b,
                         const double *const *in, const int *within, int dim, int diagnose, workspace *w)
 {
@@ -129,7 +160,7 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
 
     for (uint32_t o = 0; o < t->n_out; o++)
         for (uint32_t k = 0; k < t->n_in; k++) {
-            jac[o * t->n_in + k] = p->trial[k] >= 0 ? at + used : NULL;
+            jac[o * t->n_in + k] = p->trial[k] >= 0 || is_wanted(c, p, k) ? at + used : NULL;
             used += (size_t)(term_components(t->out[o].shape, dim) * term_components(t->in[k].shape, dim)) * ld;
         }
     memset(w->jac, 0, used * sizeof(double));
@@ -145,6 +176,8 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
             double factor = strength(s, p) * (t->in[k].eval == PF_DOT ? b->shift : 1);
             size_t block;
 
+            if (t->in[k].eval == PF_PROPERTY && p->out[o] >= 0)
+                add_chained(c, s, p, o, k, jac[o * t->n_in + k], dim, w);
             if (p->trial[k] < 0 || p->out[o] < 0 || factor == 0)
                 continue;
             block = c->block[p->out[o]][p->trial[k]];
@@ -238,6 +271,7 @@ int evaluate_term(const assembly_class *c, const plan_use *p, int64_t batch, pf_
     b->wall_distance = t->flags & PF_WALL_DISTANCE ? (double *)(c->wall + batch * c->n_q) : NULL;
     w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
     process_enter(w->report.plugin, t->name, "residual", c->cell[c->batch[batch]]);
+    TRY(properties_fit(c, p, b, w));
     return inside_residual(c, p, b, in, out, w);
 }
 
@@ -294,6 +328,7 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
         memset(w->filled, 0, c->block_size);
     if (s->power)
         inputs_unknowns(a, c, s, batch, w);
+    TRY(properties_evaluate(c, batch, with_matrix, diagnose, &b, w));
     for (int u = 0; u < c->n_use; u++) {
         const plan_use *p = &c->use[u];
 

@@ -4,6 +4,7 @@
 #include "assemble/batch.h"
 
 #include <math.h>
+#include <string.h>
 
 static v8 v8_sqrt(v8 a)
 {
@@ -104,6 +105,18 @@ static void points_of_pairs(const assembly *a, const assembly_class *c, int64_t 
     }
 }
 
+/* What properties take of a bad cell is of its own functions; those of the root have no part in it. */
+static void own_basis(const assembly_class *c, int n_basis, int order, workspace *w)
+{
+    int nq = c->n_q, all = assemble_padded(2 * n_basis);
+
+    for (int i = 0; c->own_used[order] && i < all * nq; i++)
+        w->basis[order][OWN_ROW][i] = i < n_basis * nq ? w->basis[order][0][i] : (v8){0};
+    for (int k = 1; k <= LAPLACE_ROW; k++)
+        if (k == LAPLACE_ROW ? c->laplace_used[order] : c->grad_used[order] && w->basis[order][k])
+            memset(w->basis[order][k] + n_basis * nq, 0, (size_t)((all - n_basis) * nq) * sizeof(v8));
+}
+
 /* The root of a bad cell: its basis at the points of the bad one, with the opposite sign. */
 static void points_of_roots(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
 {
@@ -124,6 +137,8 @@ static void points_of_roots(const assembly *a, const assembly_class *c, int64_t 
                     w->basis[order][0][(n_basis + i) * nq + q][l] = i < n_basis ? -n[i] : 0;
             }
         }
+    for (int order = 1; order < 3; order++)
+        own_basis(c, fe_n_basis(type, order), order, w);
 }
 
 /* Values and gradients of the basis functions at point q of rule f. */

@@ -50,6 +50,12 @@ void inputs_values(const assembly *a, const assembly_class *c, const assembly_st
         const double *from = in->eval == PF_DOT ? s->dot : in->eval == PF_OLD ? s->old : s->x;
         v8 *out = w->in + in->at * (size_t)nq;
 
+        if (in->law) /* by properties_evaluate */
+            continue;
+        if (in->frozen) {
+            properties_frozen(a, c, s, batch, in, out);
+            continue;
+        }
         if (in->key) {
             take_key(c, in, w, out);
             continue;
@@ -59,10 +65,12 @@ void inputs_values(const assembly *a, const assembly_class *c, const assembly_st
             continue;
         }
         if (in->field < 0) {
+            const double *constant = in->number ? in->number : in->data->constant;
+
             for (int i = 0; i < in->n_comp; i++)
                 for (int q = 0; q < nq; q++)
                     out[i * nq + q] =
-                        in->table ? in->table[(batch * in->n_comp + i) * nq + q] : (v8){0} + in->data->constant[i];
+                        in->table ? in->table[(batch * in->n_comp + i) * nq + q] : (v8){0} + constant[i];
             continue;
         }
         if (from != gathered || in->field != gathered_field) {

@@ -80,6 +80,7 @@ static int keep_batch(const assembly *a, const assembly_class *c, const assembly
 
     geometry_points(a, c, batch, w);
     inputs_values(a, c, s, batch, w);
+    TRY(properties_evaluate(c, batch, 0, 1, &b, w));
     for (int u = 0; u < c->n_use; u++)
         if (keeps(&c->use[u]) && inside_any(c, &c->use[u], w))
             TRY(keep_term(a, c, s, batch, &c->use[u], &b, w, kept));

@@ -9,74 +9,6 @@
 
 enum { FACET_DEGREE = 5 };
 
-static enum basis_kind kind_of(const assembly_class *c, const pf_slot *slot)
-{
-    if (c->where == PF_PAIR && slot->eval != PF_DEFECT)
-        return slot->eval == PF_OTHER ? BASIS_OTHER : BASIS_FIRST;
-    switch (slot->eval) {
-    case PF_GRAD:
-    case PF_DIV:
-        return BASIS_GRAD;
-    case PF_LAPLACE:
-        return BASIS_LAPLACE;
-    default:
-        return BASIS_VALUE;
-    }
-}
-
-static void mark_used(assembly_class *c, int order, enum basis_kind kind)
-{
-    c->order_used[order] = 1;
-    c->grad_used[order] |= kind == BASIS_GRAD;
-    c->laplace_used[order] |= kind == BASIS_LAPLACE;
-    c->any_laplace |= kind == BASIS_LAPLACE;
-}
-
-/* data, key: where what is no field comes from, or NULL. */
-static int find_input(assembly_class *c, const space *s, const pf_slot *slot, const value *data, const double *key,
-                      error *err)
-{
-    int f = term_slot_field(slot) ? space_find_field(s, slot->field) : -1;
-    int kept = slot->eval == PF_STATE ? kept_find(&s->kept, slot->field) : -1;
-    plan_input *in;
-
-    for (int i = 0; i < c->n_input; i++)
-        if (c->input[i].field == f && c->input[i].eval == slot->eval && c->input[i].data == data &&
-            c->input[i].key == key && c->input[i].kept == kept)
-            return i;
-    if (c->n_input == ASSEMBLE_MAX_INPUTS)
-        return -error_set(err, ERR_PLUGIN, "the terms need more than %d different inputs", ASSEMBLE_MAX_INPUTS);
-    in = &c->input[c->n_input];
-    *in = (plan_input){.field = f, .eval = slot->eval, .data = data, .key = key, .kept = kept, .at = c->in_size};
-    in->n_comp = term_components(slot->shape, s->mesh->dim);
-    c->any_kept |= kept >= 0;
-    c->in_size += (size_t)in->n_comp;
-    if (f >= 0) {
-        mark_used(c, s->field[f].order, kind_of(c, slot));
-        if (slot->eval == PF_DOT && c->where == PF_FLUID) /* see moving_frame */
-            c->grad_used[s->field[f].order] = 1;
-    }
-    return c->n_input++;
-}
-
-static int find_basis(assembly_class *c, const space *s, plan_basis *list, int *n, const pf_slot *slot, error *err)
-{
-    int f = space_find_field(s, slot->field);
-    enum basis_kind kind = kind_of(c, slot);
-    plan_basis *b = &list[*n];
-
-    for (int i = 0; i < *n; i++)
-        if (list[i].field == f && list[i].kind == kind)
-            return i;
-    if (*n == ASSEMBLE_MAX_TESTS)
-        return -error_set(err, ERR_PLUGIN, "the terms need more than %d different test functions",
-                          ASSEMBLE_MAX_TESTS);
-    *b = (plan_basis){
-        .field = f, .kind = kind, .n_comp = s->field[f].n_comp * (kind == BASIS_GRAD ? s->mesh->dim : 1)};
-    mark_used(c, s->field[f].order, kind);
-    return (*n)++;
-}
-
 /* An output that is shown has a place of its own among the test functions, and no field. */
 static int add_shown(assembly_class *c, const space *s, const pf_slot *slot, error *err)
 {
@@ -85,11 +17,6 @@ static int add_shown(assembly_class *c, const space *s, const pf_slot *slot, err
                           ASSEMBLE_MAX_TESTS);
     c->test[c->n_test] = (plan_basis){.field = -1, .n_comp = term_components(slot->shape, s->mesh->dim)};
     return c->n_test++;
-}
-
-static size_t max_size(size_t a, size_t b)
-{
-    return a > b ? a : b;
 }
 
 /* The number of a term, the same on the points of all classes. */
@@ -104,62 +31,67 @@ static int number_use(assembly *a, term_use *use)
     return i;
 }
 
+/* Marks the blocks of D that output o of a term can fill by its slot k. */
+static void couple(assembly_class *c, plan_use *p, uint32_t o, uint32_t k, int dim)
+{
+    const size_t rows = (size_t)term_components(p->use->term->out[o].shape, dim);
+
+    if (p->trial[k] >= 0)
+        c->block[p->out[o]][p->trial[k]] = 0;
+    if (p->slope[k] >= 0)
+        c->block[p->out[o]][p->slope[k]] = 0;
+    for (int i = 0; i < c->n_chain; i++) {
+        const plan_chain *chain = &c->chain[i];
+
+        if (chain->property != p->in[k])
+            continue;
+        p->varies = 1;
+        c->block[p->out[o]][chain->trial] = 0;
+        if (chain->slope >= 0)
+            c->block[p->out[o]][chain->slope] = 0;
+        if (c->product_size < rows * (size_t)term_components(chain->slot->shape, dim))
+            c->product_size = rows * (size_t)term_components(chain->slot->shape, dim);
+    }
+}
+
 /* Adds one term; marks the blocks of D that it can fill. */
 static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
 {
     const pf_term *t = use->term;
     plan_use *p = &c->use[c->n_use++];
-    size_t out = 0, jac = 0;
-    int dim = s->mesh->dim, shows = term_kind(t) == TERM_SHOWS; /* nothing is solved for: no derivatives */
+    const int shows = term_kind(t) == TERM_SHOWS; /* nothing is solved for: no derivatives */
 
     p->use = use;
     p->inside = -1;
     if (use->inside) {
-        p->inside = find_input(c, s, &(pf_slot){.eval = PF_DATA, .shape = PF_SCALAR}, use->inside, NULL, err);
+        p->inside = slots_input(c, s, &(pf_slot){.eval = PF_DATA, .shape = PF_SCALAR}, use->inside, NULL, err);
         if (p->inside < 0)
             return err->code;
     }
-    c->any_metric |= (t->flags & PF_METRIC) != 0;
-    c->any_wall |= (t->flags & PF_WALL_DISTANCE) != 0;
     c->any_body_data |= use->plugin->d.min_minor >= 4;
     for (uint32_t k = 0; k < t->n_in; k++) {
-        const pf_slot *slot = &t->in[k];
-        const int derived = !shows && term_is_unknown(slot), slopes = derived && slot->eval == PF_DOT;
-
-        p->in[k] = find_input(c, s, slot, use->data[k], use->key[k], err);
-        p->trial[k] = derived ? find_basis(c, s, c->trial, &c->n_trial, slot, err) : -1;
-        p->slope[k] = slopes && c->where == PF_FLUID
-                          ? find_basis(c, s, c->trial, &c->n_trial,
-                                       &(pf_slot){.field = slot->field, .shape = slot->shape, .eval = PF_GRAD}, err)
-                          : -1;
-        if (p->in[k] < 0 || (derived && p->trial[k] < 0) || (slopes && c->where == PF_FLUID && p->slope[k] < 0))
+        p->in[k] = slots_find(c, s, use, k, err);
+        if (p->in[k] < 0)
             return err->code;
+        p->trial[k] = p->slope[k] = -1;
+        if (!shows)
+            TRY(slots_trial(c, s, &t->in[k], &p->trial[k], &p->slope[k], err));
     }
     for (uint32_t o = 0; o < t->n_out; o++) {
         const int keeps = t->out[o].eval == PF_STATE;
 
         p->out[o] = keeps   ? -1
                     : shows ? add_shown(c, s, &t->out[o], err)
-                            : find_basis(c, s, c->test, &c->n_test, &t->out[o], err);
-        p->kept[o] = keeps ? find_input(c, s, &t->out[o], NULL, NULL, err) : -1;
+                            : slots_basis(c, s, c->test, &c->n_test, &t->out[o], err);
+        p->kept[o] = keeps ? slots_input(c, s, &t->out[o], NULL, NULL, err) : -1;
         if (p->out[o] < 0 && p->kept[o] < 0)
             return err->code;
         p->equations |= !keeps;
-        out += (size_t)term_components(t->out[o].shape, dim);
-        for (uint32_t k = 0; k < t->n_in; k++) {
-            jac += (size_t)(term_components(t->out[o].shape, dim) * term_components(t->in[k].shape, dim));
-            if (keeps)
-                continue;
-            if (p->trial[k] >= 0 && (!t->depends || t->depends[o * t->n_in + k]))
-                c->block[p->out[o]][p->trial[k]] = 0;
-            if (p->slope[k] >= 0 && (!t->depends || t->depends[o * t->n_in + k]))
-                c->block[p->out[o]][p->slope[k]] = 0;
-        }
+        for (uint32_t k = 0; k < t->n_in && !keeps && !shows; k++)
+            if (!t->depends || t->depends[o * t->n_in + k])
+                couple(c, p, o, k, s->mesh->dim);
     }
-    c->out_size = max_size(c->out_size, out);
-    c->jac_size = max_size(c->jac_size, jac);
-    c->scratch_size = max_size(c->scratch_size, t->scratch_bytes);
-    c->room_size = max_size(c->room_size, term_jacobian_room(t, dim, PF_LANES) / sizeof(v8));
+    slots_sizes(c, t, s->mesh->dim);
     return 0;
 }
 

@@ -5,9 +5,10 @@
 
 /* Numbers of v8, of bytes in `scratch`, of unknowns and columns in `entries` and `width`. */
 typedef struct sizes {
-    size_t q, node, basis[3], in, test, block, out, jac, room, scratch, filled, entries, width, stages;
+    size_t q, node, basis[3], in, test, block, out, jac, room, scratch, filled, entries, width, stages, chain,
+        product;
     size_t body_q; /* points of the classes that are on bodies */
-    int laplace[3], metric;
+    int laplace[3], own[3], metric;
 } sizes;
 
 static void raise(size_t *most, size_t n)
@@ -33,6 +34,8 @@ static sizes find_sizes(const assembly *a)
         raise(&s.jac, c->jac_size * nq);
         raise(&s.room, c->room_size * nq);
         raise(&s.scratch, c->scratch_size);
+        raise(&s.chain, c->chain_size * nq);
+        raise(&s.product, c->product_size * nq);
         raise(&s.entries, (size_t)c->layout.n);
         raise(&s.width, (size_t)c->layout.width);
         raise(&s.stages, c->tensor ? tensor_room(type->dim, c->tensor->n) : 0);
@@ -43,6 +46,7 @@ static sizes find_sizes(const assembly *a)
             raise(&s.basis[order], (size_t)assemble_padded(c->n_basis[order]));
             raise(&s.node, s.basis[order]);
             s.laplace[order] |= c->laplace_used[order];
+            s.own[order] |= c->own_used[order];
         }
     }
     return s;
@@ -68,7 +72,7 @@ static int room_for_geometry(const sizes *s, size_t dim, workspace *w, error *er
     ARENA_NEW(memory, w->id, q * PF_LANES, err);
     for (int order = 0; order < 3; order++)
         for (size_t k = 0; k < BASIS_ROWS; k++)
-            if (k <= dim || (k == LAPLACE_ROW && s->laplace[order]))
+            if (k <= dim || (k == LAPLACE_ROW && s->laplace[order]) || (k == OWN_ROW && s->own[order]))
                 ARENA_NEW(memory, w->basis[order][k], (s->basis[order] + 1) * q, err);
     if (s->metric)
         ARENA_NEW(memory, w->metric, q * dim * dim, err);
@@ -111,6 +115,8 @@ int workspace_create(const assembly *a, workspace *w, error *err)
     ARENA_NEW(memory, w->out, s.out + 1, err);
     ARENA_NEW(memory, w->jac, s.jac + 1, err);
     ARENA_NEW(memory, w->room, s.room + 1, err);
+    ARENA_NEW(memory, w->chain, s.chain + 1, err);
+    ARENA_NEW(memory, w->product, s.product + 1, err);
     ARENA_NEW(memory, w->g, TEST_ROWS * ASSEMBLE_PAD * s.q, err);
     ARENA_NEW(memory, w->vec, s.entries + 1, err);
     if (a->space->kept.n)

@@ -56,16 +56,20 @@ int pairs_create(bodies *b, error *err)
     return pairs_find_walls(b, err);
 }
 
-/* Size of the cell at a place, or of the fallback where there is none. */
-static double size_at(const bodies *b, const double *x, int64_t fallback)
+/* The cell at the middle of a gap, or the fallback where there is none, and its size. */
+static void find_cell(const bodies *b, near_pair *n, int64_t fallback)
 {
     const mesh *m = b->space->mesh;
-    double at[3] = {x[0], x[1], x[2]};
+    double at[3] = {n->at[0], n->at[1], n->at[2]};
     located l;
 
     mesh_wrap(m, at);
     l = locate_point(m, b->grid, at);
-    return l.cell >= 0 ? m->h[l.cell] : fallback >= 0 ? m->h[fallback] : b->h_mean;
+    if (l.cell < 0 && fallback >= 0 && locate_in_cell(m, fallback, at, l.xi) >= 0)
+        l.cell = (int32_t)fallback;
+    n->cell = l.cell;
+    memcpy(n->ref, l.xi, sizeof n->ref);
+    n->h = l.cell >= 0 ? m->h[l.cell] : fallback >= 0 ? m->h[fallback] : b->h_mean;
 }
 
 /* Distance from y to the nearest image of x, and the unit vector along it. */
@@ -128,7 +132,7 @@ static int add_pair(const bodies *b, placement *p, int64_t link, int i, int j, i
         n->at[k] = q->at.x[k] - reach * normal[k];
         n->other_centre[k] = j >= 0 ? q->at.x[k] - distance * normal[k] : 0;
     }
-    n->h = size_at(b, n->at, cell);
+    find_cell(b, n, cell);
     return 0;
 }
 

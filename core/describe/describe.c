@@ -14,6 +14,7 @@ int describe(description *d, case_file *c, registry *r, warning_list *w, error *
     if (d->dim == 0)
         d->dim = 2; /* the mesh block is wrong and said so; go on to find what else is */
     TRY(describe_terms(d, r, err));
+    describe_properties(d, r);
     TRY(describe_boundaries(d, err));
     TRY(describe_bodies(d, err));
     describe_settings(d);

@@ -206,6 +206,8 @@ int describe_moves(const description *d);
 
 int describe_mesh(description *d, error *err);
 int describe_terms(description *d, registry *r, error *err);
+/* Who publishes the properties that terms take. */
+void describe_properties(description *d, registry *r);
 int describe_boundaries(description *d, error *err);
 int describe_bodies(description *d, error *err);
 void describe_settings(description *d);
@@ -250,6 +252,8 @@ void describe_check_kept(const description *d);
 int describe_start(description *d, error *err);
 /* Parameters and data of a term that is on, from its line and from fluid{}. */
 int describe_term_keys(description *d, reader *own, reader *fluid, term_use *u, error *err);
+/* Says that a parameter which a term on this line has to have is not there. */
+void describe_missing(description *d, const case_block *own, const pf_param *q);
 /* Keys on a line that belong to another term of its plugin, and in fluid{} that belong on a line. */
 void describe_off_keys(description *d, reader *own, const term_plugin *plugin);
 void describe_unshared_keys(description *d, reader *fluid);

@@ -132,9 +132,10 @@ static void continue_in(description *d, const case_block *b, const char *name, d
     solve_spec *c = &d->solve;
     int found = 0;
 
-    for (int i = 0; i < d->n_use; i++) {
-        const pf_param *q = describe_param(&d->use[i], name);
-        double *at = q ? (double *)(void *)((char *)d->use[i].params + q->offset) : NULL;
+    for (int i = 0; i < d->n_use + d->law.n; i++) {
+        const term_use *u = i < d->n_use ? &d->use[i] : &d->law.use[i - d->n_use];
+        const pf_param *q = describe_param(u, name);
+        double *at = q ? (double *)(void *)((char *)u->params + q->offset) : NULL;
 
         if (!q || q->type != PF_T_REAL || c->n_continued == DESCRIBE_MAX_CONTINUED)
             continue;

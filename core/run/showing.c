@@ -91,7 +91,9 @@ static int make_shown(run *r, showing *s, error *err)
             spec[n++].rule = cut;
         }
     }
-    return shown_create(&s->shown, &p->space, &d->shown_fields, spec, n, p->n_thread, err);
+    TRY(shown_create(&s->shown, &p->space, &d->shown_fields, spec, n, p->n_thread, err));
+    s->shown.assembly.walls = p->bodies.has_walls ? &p->bodies.walls : NULL;
+    return 0;
 }
 
 int showing_open(run *r, error *err)
@@ -149,6 +151,7 @@ static int evaluate(run *r, error *err)
                          .x = r->x,
                          .dot = s->dot,
                          .old = r->x,
+                         .kept = p->state.kept,
                          .bodies = problem_points(p)};
 
     if (s->evaluated)

@@ -96,6 +96,34 @@ enum term_kind term_kind(const pf_term *t)
     return kind;
 }
 
+const double *term_number(const term_use *u, const pf_slot *s)
+{
+    for (uint32_t i = 0; i < u->term->n_param; i++) {
+        const pf_param *q = &u->term->param[i];
+
+        if (strcmp(q->name, s->field) == 0 &&
+            ((q->type == PF_T_REAL && s->shape == PF_SCALAR) || (q->type == PF_T_VECTOR && s->shape == PF_VECTOR)))
+            return (const double *)(const void *)((const char *)u->params + q->offset);
+    }
+    return NULL;
+}
+
+int term_takes(const pf_term *t, const char *property)
+{
+    for (uint32_t k = 0; k < t->n_in; k++)
+        if (t->in[k].eval == PF_PROPERTY && strcmp(t->in[k].field, property) == 0)
+            return 1;
+    return 0;
+}
+
+int term_publishes(const pf_term *t, const char *property)
+{
+    for (uint32_t o = 0; o < t->n_out; o++)
+        if (t->out[o].eval == PF_PROPERTY && strcmp(t->out[o].field, property) == 0)
+            return (int)o;
+    return -1;
+}
+
 int term_stores(const pf_term *t, const char *field)
 {
     for (uint32_t k = 0; k < t->n_in; k++)

@@ -100,9 +100,12 @@ size_t term_jacobian_room(const pf_term *t, int dim, uint32_t ld);
 /* 1 if the term has what this derivative comes from: a Jacobian by hand, a complex twin.  Differences and TERM_AUTO
  * are always possible; and a term without unknowns has nothing to derive. */
 int term_has_derivative(const pf_term *t, enum term_derivative how);
+/* 1 if it is the Jacobian by hand that term_jacobian calls. */
+int term_derives_by_hand(const pf_term *t, enum term_derivative how);
 /* d out / d in at every point, by hand, complex step or central differences (TERM_AUTO: the
- * first that the term has).  jac as in pf_jacobian_fn; room from term_jacobian_room, 64-byte aligned.
- * Returns an enum pf_status; PF_FAIL, with the reason in the report, also if the term does not have it. */
+ * first that the term has).  jac as in pf_jacobian_fn: where the blocks of an
+ * input are NULL (in those of the first output) there is no derivative by it; room from term_jacobian_room, 64-byte
+ * aligned. Returns an enum pf_status; PF_FAIL, with the reason in the report, also if the term does not have it. */
 int term_jacobian(const pf_term *t, enum term_derivative how, const pf_batch *b, const double *const *in,
                   double *const *jac, void *room);
 
@@ -118,7 +121,18 @@ typedef struct term_use {
     const char *label;                 /* `name` of the line, for messages and reports; NULL: it has none     */
     int replaced;                      /* another term takes its place, or there is no use for it               */
     const double *key[TERM_MAX_SLOTS]; /* for PF_BODY_KEY and PF_OTHER_KEY slots: [n_body][components] */
+    const struct term_use
+        *law[TERM_MAX_SLOTS]; /* for PF_PROPERTY inputs: who publishes it; NULL: see term_number */
+    uint32_t given, missing;  /* bit k: parameter k stands in the case; it had to, and does not */
 } term_use;
+
+/* The term's own parameter of the name and shape of a PF_PROPERTY input, which is its value where nobody publishes
+ * it; NULL: it has none. */
+const double *term_number(const term_use *u, const pf_slot *s);
+/* Whether a term takes this property. */
+int term_takes(const pf_term *t, const char *property);
+/* The output of a publisher that is this property; -1: it does not publish it. */
+int term_publishes(const pf_term *t, const char *property);
 
 /* --- fields: the unknowns that plugins declare (fields.c) --- */
 
