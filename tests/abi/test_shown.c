@@ -103,10 +103,10 @@ static void rates_are_those_of_the_scheme_also_near_a_body_that_moves(void **sta
         0, "ok in");
     assert_true(isnan(cell("r", "integrals.csv", "total_rate_x", 0))); /* no step has been made */
     for (int row = 1; row < 5; row++) {
-        assert_between(cell("r", "integrals.csv", "total_rate_x", row) / volume - 1, -1e-4, 1e-4);
-        assert_between(cell("r", "integrals.csv", "total_rate_y", row) / volume - 2, -2e-4, 2e-4);
-        assert_between(cell("r", "integrals.csv", "growth_y", row) / volume - 0.1, -1e-4, 1e-4);
-        assert_between(cell("r", "probes.csv", "near.acceleration_x", row) - 1, -1e-3, 1e-3);
+        assert_between(cell("r", "integrals.csv", "total_rate_x", row) / volume - 1, -1e-6, 1e-6);
+        assert_between(cell("r", "integrals.csv", "total_rate_y", row) / volume - 2, -1e-6, 1e-6);
+        assert_between(cell("r", "integrals.csv", "growth_y", row) / volume - 0.1, -1e-6, 1e-6);
+        assert_between(cell("r", "probes.csv", "near.acceleration_x", row) - 1, -1e-5, 1e-5);
         assert_true(isnan(cell("r", "probes.csv", "inside.acceleration_x", row)));
     }
 }
