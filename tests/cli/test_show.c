@@ -51,8 +51,9 @@ static void poiseuille_flow(const char *shape)
     snprintf(
         text, sizeof text,
         "mesh { box = {{0,0},{3,1}}, cells = {6, 4}, shape = '%s' }\nfluid { density = 2, viscosity = 0.1 }\n" FLUID
-        "for _, what in ipairs { 'shear_rate', 'vorticity', 'dissipation', 'kinetic_energy', 'enstrophy',\n"
-        "  'flow_rate', 'mean_pressure', 'wall_shear', 'wall_force' } do term('show.' .. what) {} end\n"
+        "term 'show' { only = {'shear_rate', 'vorticity', 'dissipation', 'kinetic_energy', 'enstrophy', "
+        "'flow_rate',\n"
+        "  'mean_pressure', 'wall_shear', 'wall_force'} }\n"
         "local function profile(x, y) return 4 * y * (1 - y), 0 end\n"
         "boundary 'left' { u = profile }\nboundary '*' { u = {0, 0} }\n"
         "boundary 'right' { traction = function(x, y) return 0, 0.1 * (4 - 8 * y) end }\n"
@@ -208,6 +209,12 @@ static void what_shows_a_field_is_told(void **state)
     snprintf(text, sizeof text, "%sterm 'show.flow_rate' {}\noutput { integrals = {'lefft'} }\n", box);
     assert_ran(plugflow("check %s", put_file("case.lua", text)), 3,
                "output: integrals: no boundary is called \"lefft\"; did you mean \"left\"?");
+    snprintf(text, sizeof text, "%sterm 'show' {}\n", box);
+    assert_ran(plugflow("check %s", put_file("case.lua", text)), 3,
+               "term \"show\": all its terms are off unless they are named, as in only = {\"shear_rate\"}");
+    snprintf(text, sizeof text, "%sterm 'show' { only = {'vorticty'} }\n", box);
+    assert_ran(plugflow("check %s", put_file("case.lua", text)), 3,
+               "plugin \"show\" has no term \"vorticty\"; did you mean \"vorticity\"?");
     assert_ran(plugflow("describe show.dissipation"), 0, "dissipation", "shown, scalar, W/m^3",
                "integral, scalar, W");
 }
