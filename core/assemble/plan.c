@@ -9,16 +9,6 @@
 
 enum { FACET_DEGREE = 5 };
 
-/* An output that is shown has a place of its own among the test functions, and no field. */
-static int add_shown(assembly_class *c, const space *s, const pf_slot *slot, error *err)
-{
-    if (c->n_test == ASSEMBLE_MAX_TESTS)
-        return -error_set(err, ERR_PLUGIN, "more than %d quantities are shown of the same points",
-                          ASSEMBLE_MAX_TESTS);
-    c->test[c->n_test] = (plan_basis){.field = -1, .n_comp = term_components(slot->shape, s->mesh->dim)};
-    return c->n_test++;
-}
-
 /* The number of a term, the same on the points of all classes. */
 static int number_use(assembly *a, term_use *use)
 {
@@ -81,7 +71,7 @@ static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
         const int keeps = t->out[o].eval == PF_STATE;
 
         p->out[o] = keeps   ? -1
-                    : shows ? add_shown(c, s, &t->out[o], err)
+                    : shows ? slots_shown(c, s, &t->out[o], err)
                             : slots_basis(c, s, c->test, &c->n_test, &t->out[o], err);
         p->kept[o] = keeps ? slots_input(c, s, &t->out[o], NULL, NULL, err) : -1;
         if (p->out[o] < 0 && p->kept[o] < 0)

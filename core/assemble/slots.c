@@ -91,6 +91,15 @@ int slots_basis(assembly_class *c, const space *s, plan_basis *list, int *n, con
     return (*n)++;
 }
 
+int slots_shown(assembly_class *c, const space *s, const pf_slot *slot, error *err)
+{
+    if (c->n_test == ASSEMBLE_MAX_TESTS)
+        return -error_set(err, ERR_PLUGIN, "more than %d quantities are shown of the same points",
+                          ASSEMBLE_MAX_TESTS);
+    c->test[c->n_test] = (plan_basis){.field = -1, .n_comp = term_components(slot->shape, s->mesh->dim)};
+    return c->n_test++;
+}
+
 static size_t max_size(size_t a, size_t b)
 {
     return a > b ? a : b;

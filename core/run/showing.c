@@ -310,7 +310,7 @@ int showing_body_columns(const run *r, int most, char (*name)[96], const char **
     return n;
 }
 
-int showing_body_row(run *r, int body, double *row, error *err)
+double *showing_body_row(run *r, int body, double *row, error *err)
 {
     const shown *s = r->showing ? &r->showing->shown : NULL;
 
@@ -319,11 +319,12 @@ int showing_body_row(run *r, int body, double *row, error *err)
 
         if (q->per != SHOWN_BODY)
             continue;
-        TRY(evaluate(r, err));
+        if (evaluate(r, err))
+            return NULL;
         for (int k = 0; k < q->n_comp; k++)
             *row++ = is_early(r, q->use) ? NAN : q->value[body * q->n_comp + k];
     }
-    return 0;
+    return row;
 }
 
 /* --- fields --- */
