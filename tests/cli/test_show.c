@@ -154,6 +154,23 @@ static void traction_on_a_disk_converges_to_its_force(void **state)
     assert_between(error[0] / error[1], 3.5, 20);
 }
 
+/* Coefficients are forces over half of density, velocity squared and length: on boundaries and on bodies. */
+static void coefficients_are_forces_by_the_dynamic_pressure(void **state)
+{
+    const double unit = 0.5 * 4 * 0.3 * 0.3 * 0.2;
+
+    (void)state;
+    run("mesh { box = {{0,0},{1,1}}, cells = {10, 10}, shape = 'quads' }\nfluid { density = 4, viscosity = 1 "
+        "}\n" FLUID "particulate 'sharp'\nboundary 'right' { natural = true }\nboundary '*' { u = {0.3, 0} }\n"
+        "particle { shape = disk { radius = 0.2 }, density = 1, at = {0.5, 0.53}, motion = 'fixed' }\n"
+        "output { forces = {'top', 'bottom'}, coefficients = { density = 4, velocity = 0.3, length = 0.2 } }\n");
+    assert_between(cell("particles.csv", "cx", 0), 1, 1000);
+    assert_close(cell("particles.csv", "cx", 0) * unit / cell("particles.csv", "fx", 0), 1, 1e-14);
+    assert_close(cell("particles.csv", "cy", 0) * unit / cell("particles.csv", "fy", 0), 1, 1e-14);
+    assert_close(cell("forces.csv", "top.cx", 0) * unit / cell("forces.csv", "top.fx", 0), 1, 1e-14);
+    assert_close(cell("forces.csv", "bottom.cy", 0) * unit / cell("forces.csv", "bottom.fy", 0), 1, 1e-14);
+}
+
 /* With everything that can be shown of it, a falling disk falls to the same bits. */
 static void what_is_shown_changes_nothing_else(void **state)
 {
@@ -215,6 +232,8 @@ static void what_shows_a_field_is_told(void **state)
     snprintf(text, sizeof text, "%sterm 'show' { only = {'vorticty'} }\n", box);
     assert_ran(plugflow("check %s", put_file("case.lua", text)), 3,
                "plugin \"show\" has no term \"vorticty\"; did you mean \"vorticity\"?");
+    snprintf(text, sizeof text, "%soutput { coefficients = { density = 1, velocity = 2, area = 1 } }\n", box);
+    assert_ran(plugflow("check %s", put_file("case.lua", text)), 3, "output: coefficients", "\"area\"", "length");
     assert_ran(plugflow("describe show.dissipation"), 0, "dissipation", "shown, scalar, W/m^3",
                "integral, scalar, W");
 }
@@ -227,6 +246,7 @@ int main(void)
         cmocka_unit_test(solid_body_rotation_has_twice_its_spin_as_vorticity),
         cmocka_unit_test(heat_and_weight_go_through_boundaries),
         cmocka_unit_test(traction_on_a_disk_converges_to_its_force),
+        cmocka_unit_test(coefficients_are_forces_by_the_dynamic_pressure),
         cmocka_unit_test(what_is_shown_changes_nothing_else),
         cmocka_unit_test(integrals_are_repeatable),
         cmocka_unit_test(what_shows_a_field_is_told),
