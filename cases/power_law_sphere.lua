@@ -48,5 +48,5 @@ solve    { continuation = { exponent = 1 } }
 
 results(function(r)
   local stokes = 6 * math.pi * R * K * (U / (2 * R)) ^ (exponent - 1) * U
-  return { drag = r.last["p0.fx"], X = 4 * r.last["p0.fx"] / stokes, X_of_whole = r.last["p0.fx"] / stokes }
+  return { drag = r.last["p0.fx"], X = r.last["p0.fx"] / stokes }
 end)

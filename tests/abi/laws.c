@@ -3,7 +3,6 @@
  * Laws for test_properties: a viscosity that another law's property goes into, and some that cannot be. */
 #include <plugflow/term.h>
 
-#define PF_SLOT_mu       SCALAR, mu, "viscosity", PF_PROPERTY, .unit = "Pa s", .doc = "dynamic viscosity"
 #define PF_SLOT_cP       SCALAR, cP, "viscosity", PF_PROPERTY, .unit = "cP", .doc = "dynamic viscosity"
 #define PF_SLOT_thinning SCALAR, thinning, "thinning", PF_PROPERTY, .unit = "1", .doc = "part that shear leaves"
 #define PF_SLOT_a        SCALAR, a, "a", PF_PROPERTY, .unit = "1", .doc = "a"
