@@ -132,13 +132,22 @@ void describe_off_keys(description *d, reader *own, const term_plugin *plugin)
                 describe_misplaced(d, own, t->in[k].name, "(%s.%s) is a key of boundary \"...\" {}", name, t->name);
             else if (t->in[k].eval == PF_DATA)
                 describe_misplaced(d, own, t->in[k].name,
-                          "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name, t->name,
-                          name, t->name);
+                                   "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name,
+                                   t->name, name, t->name);
         for (uint32_t k = 0; k < t->n_param; k++)
             describe_misplaced(d, own, t->param[k].name,
-                      "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name, t->name, name,
-                      t->name);
+                               "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name,
+                               t->name, name, t->name);
     }
+}
+
+/* What a fluid has is no mistake in fluid{} where the one term of a plugin that takes it is left out. */
+static void note_off_keys(reader *fluid, const term_plugin *plugin)
+{
+    for (uint32_t i = 0; i < plugin->d.n_term; i++)
+        for (uint32_t k = 0; k < plugin->term[i].n_param; k++)
+            if (plugin->term[i].param[k].flags & PF_SHARED && !(plugin->term[i].flags & PF_OPTIONAL))
+                reader_note(fluid, plugin->term[i].param[k].name, plugin->term[i].param[k].doc);
 }
 
 void describe_unshared_keys(description *d, reader *fluid)
@@ -154,6 +163,7 @@ void describe_unshared_keys(description *d, reader *fluid)
                 describe_misplaced(d, fluid, t->in[k].name, "is a key of the line term \"%s\" {}", line);
         for (uint32_t k = 0; k < t->n_param; k++)
             describe_misplaced(d, fluid, t->param[k].name, "is a key of the line term \"%s\" {}", line);
+        note_off_keys(fluid, d->use[i].plugin);
     }
 }
 

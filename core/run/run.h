@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "io/file.h"
+#include "io/vtu.h"
 #include "problem/problem.h"
 
 #include <signal.h>
@@ -175,5 +176,11 @@ int norms_mean(const run *r, int f, double *mean, error *err);
 int results_expect(run *r, error *err);
 /* After it: calls it and leaves JSON in r->results (results_call). */
 int results_evaluate(run *r, error *err);
+
+/* Memory of terms (memory.c): by its mean over each cell; the columns of bodies' and their values, returns what
+ * follows. */
+int cell_fields(const run *r, vtu_cells *to, arena *memory, error *err);
+int kept_columns(const run *r, char (*name)[OFF_MESH_NAME]);
+double *kept_of_body(const run *r, int body, double *to);
 
 #endif

@@ -27,17 +27,34 @@ typedef struct sheet {
     int n_output, n_block, n_in;
 } sheet;
 
-static void take_derivatives(sheet *s, const expr *whole)
+/* The outputs; a test function that drops out is none. */
+static void take_outputs(sheet *s, const expr *whole)
+{
+    form *f = s->f;
+    int n = 0;
+
+    for (int i = 0; i < f->n_symbol; i++) {
+        output *o = &s->output[s->n_output];
+
+        f->symbol[n++] = f->symbol[i];
+        if (f->symbol[i]->kind != SYM_TEST)
+            continue;
+        *o = (output){.test = f->symbol[i], .at = {index_new(f), index_new(f)}};
+        o->value = differentiate(f, whole, o->test, o->at[0], o->at[1]);
+        if (index_is_number(o->value, 0))
+            n--;
+        else
+            s->n_output++;
+    }
+    f->n_symbol = n;
+    if (s->n_output == 0)
+        form_fail(f, -1, "the form is zero, whatever the fields are");
+}
+
+static void take_derivatives(sheet *s)
 {
     form *f = s->f;
 
-    for (int i = 0; i < f->n_symbol; i++)
-        if (f->symbol[i]->kind == SYM_TEST) {
-            output *o = &s->output[s->n_output++];
-
-            *o = (output){.test = f->symbol[i], .at = {index_new(f), index_new(f)}};
-            o->value = differentiate(f, whole, o->test, o->at[0], o->at[1]);
-        }
     for (int o = 0; o < s->n_output; o++)
         for (int i = 0; i < f->n_symbol; i++) {
             block *b = &s->block[s->n_block];
@@ -57,9 +74,10 @@ static void take_derivatives(sheet *s, const expr *whole)
         }
 }
 
+/* Whether there is a slot in it, also one of the step before: the Jacobian of a linear term has none. */
 static int moves(const expr *e)
 {
-    int m = e->kind == X_SYMBOL && e->symbol->moves;
+    int m = e->kind == X_SYMBOL && e->symbol->kind == SYM_SLOT && !e->symbol->is_property;
 
     for (int i = 0; i < e->n; i++)
         m |= moves(e->arg[i]);
@@ -81,7 +99,7 @@ static void leave_out_unused(form *f, const expr *whole)
     int n = 0;
 
     for (int i = 0; i < f->n_symbol; i++)
-        if (is_mentioned(whole, f->symbol[i]) || f->symbol[i]->kind == SYM_POINT)
+        if (is_mentioned(whole, f->symbol[i]) || (f->symbol[i]->kind != SYM_SLOT && f->symbol[i]->kind != SYM_TEST))
             f->symbol[n++] = f->symbol[i];
     f->n_symbol = n;
 }
@@ -148,7 +166,7 @@ static void emit_term(const sheet *s, text *t)
     int nonlinear = 0, n_unknown = 0;
 
     for (int i = 0; i < s->n_block; i++)
-        nonlinear |= moves(s->block[i].value);
+        nonlinear |= !s->block[i].in->is_property && moves(s->block[i].value);
     for (int i = 0; i < f->n_symbol; i++)
         n_unknown += f->symbol[i]->kind == SYM_SLOT && f->symbol[i]->moves;
     text_add(t, "TERM(%s, %s, ", f->request->name, f->request->where);
@@ -286,7 +304,8 @@ void emit_source(form *f, const tree *t, text *source)
 
     s->f = f;
     leave_out_unused(f, whole);
-    take_derivatives(s, whole);
+    take_outputs(s, whole);
+    take_derivatives(s);
     text_add(&draft, "/* %s\n *\n *     %s\n *\n * Written by plugflow new --weak; yours to change. */\n",
              f->request->name, f->request->form);
     text_add(&draft, "#include <plugflow/term.h>\n\n");

@@ -20,10 +20,11 @@ typedef struct tree tree;
 /* What has a name in the generated C: "grad_u", "viscosity", "AT(b->normal, a)". */
 typedef struct symbol {
     enum symbol_kind kind;
-    const char *name;        /* in C                                          */
-    const char *entry;       /* in IN, OUT, PARAMS: "grad_u", "GRAD(tau)"      */
-    int rank;                /* 0 scalar, 1 vector, 2 tensor                   */
-    int moves, is_rate;      /* it is an unknown; a derivative in time         */
+    const char *name;   /* in C                                          */
+    const char *entry;  /* in IN, OUT, PARAMS: "grad_u", "GRAD(tau)"      */
+    int rank;           /* 0 scalar, 1 vector, 2 tensor                   */
+    int moves, is_rate; /* an unknown, or a property, which may depend on unknowns; d/dt of one */
+    int is_property;
     const weak_field *field; /* of slots                                       */
     const tree *part;        /* of SYM_PART: a name that the form gives        */
 } symbol;

@@ -80,7 +80,7 @@ static const pf_term lubrication = {
            "\\ \\text{(3D)},\\ R=\\frac{R_iR_j}{R_i+R_j}",
     .cite = "Kim and Karrila 1991, Microhydrodynamics, ch. 9; 2D: Jeffrey and Onishi 1981, Q. J. Mech. Appl. Math. "
             "34:129",
-    PF_IN({"U", "U", PF_DEFECT, PF_VECTOR}),
+    PF_IN({"U", "U", PF_DEFECT, PF_VECTOR}, PF_TAKES_VISCOSITY),
     PF_OUT({"V", "U", PF_DEFECT, PF_VECTOR}),
     PF_PARAMS(struct film, PF_VISCOSITY(struct film),
               PF_NUMBER(struct film, range, "1", "gap below which the mesh does not resolve the film, in cells",
@@ -93,7 +93,7 @@ static const pf_term lubrication = {
 
 static const pf_plugin contact = {
     PF_PLUGIN,
-    .min_minor = 1,
+    .min_minor = 4,
     .name = "contact",
     .version = "1.0",
     .author = "plugflow",

@@ -28,14 +28,14 @@ static int F(repulsion)(const pf_batch *b, const NUM *const *in, NUM *const *out
 static int F(lubrication)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct film *f = b->params;
-    const NUM *restrict U = in[0];
+    const NUM *restrict U = in[0], *restrict mu = in[1];
     NUM *restrict V = out[0];
 
     PF_LANES_OF (b, i) {
         const double R = 0.5 * b->size_of[i] / (1 + b->size_of[i] / b->other_size[i]);
         const double near = R / fmax(b->gap[i], f->floor * b->h[i]), far = R / (f->range * b->h[i]);
-        const double c = b->dim == 2 ? 3 * sqrt(2) * PI * f->viscosity * (near * sqrt(near) - far * sqrt(far))
-                                     : 6 * PI * f->viscosity * R * (near - far);
+        const NUM c = b->dim == 2 ? 3 * sqrt(2) * PI * mu[i] * (near * sqrt(near) - far * sqrt(far))
+                                  : 6 * PI * mu[i] * R * (near - far);
         NUM U_n = 0;
 
         for (uint32_t a = 0; a < b->dim; a++)

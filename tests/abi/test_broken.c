@@ -207,11 +207,11 @@ static const struct CMUnitTest tests[] = {
 #ifdef HAVE_MOMENTUM
     /* the momentum plugin with one error in its source */
     TOLD(planted_sign, "WRONG  convection  d v / d u in 2D: sign: the block is minus the derivative"),
-    TOLD(planted_factor, "WRONG  stress  d grad_v / d grad_u in 2D: factor: the block is 2 times the derivative"),
+    TOLD(planted_factor, "WRONG  viscous  d grad_v / d grad_u in 2D: factor: the block is 2 times the derivative"),
     TOLD(planted_transpose, "WRONG  convection  d v / d grad_u in 2D: transpose: the two indices of grad_u"),
-    TOLD(planted_missing, "WRONG  stress  d grad_v / d p in 2D: missing: the block is zero"),
-    TOLD(planted_half, "WRONG  stress  d grad_v / d grad_u in 2D: transpose: ", "is missing"),
-    TOLD(planted_residual, "WRONG  stress  example \"grad u = (1 2; 4 -1)", "grad_v[0][1] is 12, expected 18"),
+    TOLD(planted_missing, "WRONG  pressure_gradient  d div_v / d p in 2D: missing: the block is zero"),
+    TOLD(planted_half, "WRONG  viscous  d grad_v / d grad_u in 2D: transpose: ", "is missing"),
+    TOLD(planted_residual, "WRONG  viscous  example \"grad u = (1 2; 4 -1)", "grad_v[0][1] is 12, expected 18"),
 
     /* in a run */
     RUN("a_sound_plugin_runs", sound, EXIT_OK, "observed order 2."),

@@ -35,12 +35,12 @@ static const struct pair {
     {"w_stress", "inner(mu*(grad(u) + transpose(grad(u))) - p*I, grad(v))", "plugins/momentum/momentum.so",
      "stress"},
     {"w_diffusion", "conductivity*dot(grad(T), grad(s))", "plugins/heat/heat.so", "diffusion"},
-    {"w_buoyancy", "rho*expansion*(T - reference_temperature)*dot(g, v)", "plugins/heat/heat.so", "buoyancy"},
+    {"w_buoyancy", "density*expansion*(T - reference_temperature)*dot(g, v)", "plugins/heat/heat.so", "buoyancy"},
     {"w_power_law",
      "D = sym(grad(u)); rate2 = eps^2 + 2*inner(D, D); mu_n = consistency*rate2^(0.5*(n - 1)); "
      "inner(2*mu_n*D - p*I, grad(v))",
      "tests/abi/kit/gnf.so", "stress"},
-    {"w_forchheimer", "(mu/permeability + rho*forchheimer/sqrt(permeability)*sqrt(dot(u, u) + 1e-300))*dot(u, v)",
+    {"w_forchheimer", "(viscosity/permeability + density*forchheimer/sqrt(permeability)*sqrt(dot(u, u) + 1e-300))*dot(u, v)",
      "tests/abi/kit/drag.so", "drag"},
 };
 
