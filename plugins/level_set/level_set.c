@@ -12,6 +12,7 @@
 #define THICKNESS    REAL(thickness, "m", "e of phi = 1/(1 + exp(d/e)); a third of a cell or more", NEEDED)
 #define SPEED        REAL(speed, "m/s", "at which the interface is restored; of the size of velocities", NEEDED)
 #define TENSION      REAL(tension, "N/m", "tension of the interface", PF_NOT_NEGATIVE)
+#define TIE          REAL(g, "1", "tie of phi, in c/h and c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)
 #define OF_SECOND(X) X " of the second fluid"
 #define VISCOSITY_2  REAL(viscosity_2, "Pa s", OF_SECOND("dynamic viscosity"), NEEDED)
 
@@ -104,26 +105,22 @@ TERM(momentum, PF_FLUID, IN(phi, u_t, u, grad_u, p), OUT(v, grad_v),
 
 /* g (c/h + c0/dt) dphi ds;  d: what differs from the polynomial of the root */
 TERM(tie, PF_CUT, IN(SLOT(dphi, phi, DEFECT, SCALAR)), OUT(SLOT(ds, phi, DEFECT, SCALAR)),
-     PARAMS(SPEED, VISCOSITY, VISCOSITY_2,
-            REAL(g, "1", "tie of phi, in c/h and c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)),
-     .flags = PF_LINEAR, .check = tie_check, .doc = "g(c/h+c_0/\\Delta t)(\\phi-E\\phi)(s-Es)",
+     PARAMS(SPEED, VISCOSITY, VISCOSITY_2, TIE), .flags = PF_LINEAR, .check = tie_check,
+     .doc = "g(c/h+c_0/\\Delta t)(\\phi-E\\phi)(s-Es)",
      .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)")
 {
     LANES (i)
         ds[i] = g * (speed / b->h[i] + b->shift) * dphi[i];
 }
 
-#if PF_ONCE
-int tie_check(const void *params, char *err, size_t n)
+CHECK(tie, PARAMS(SPEED, VISCOSITY, VISCOSITY_2, TIE))
 {
-    const struct tie_params *p = params;
-
-    return PF_REFUSE_UNLESS(p->viscosity == p->viscosity_2,
-                            "the fluids have viscosities %g and %g, but no slip on bodies is held with that of "
-                            "fluid{}: where there are bodies, viscosity_2 must be the same",
-                            p->viscosity, p->viscosity_2);
+    REFUSE_UNLESS(
+        viscosity == viscosity_2,
+        "the fluids have viscosities %g and %g, but no slip on bodies is held with that of fluid{}: where "
+        "there are bodies, viscosity_2 must be the same",
+        viscosity, viscosity_2);
 }
-#endif
 
 /* Of the second fluid: volume, its first moments, volume times velocity; and the area of the interface, the mean
  * over the levels of phi, those near 1/2 above all: int 30 phi^2 (1 - phi)^2 dphi = 1 */
