@@ -107,7 +107,9 @@ TERM(momentum, PF_FLUID, IN(phi, u_t, u, grad_u, p), OUT(v, grad_v),
 TERM(tie, PF_CUT, IN(SLOT(dphi, phi, DEFECT, SCALAR)), OUT(SLOT(ds, phi, DEFECT, SCALAR)),
      PARAMS(SPEED, VISCOSITY, VISCOSITY_2, TIE), .flags = PF_LINEAR, .check = tie_check,
      .doc = "g(c/h+c_0/\\Delta t)(\\phi-E\\phi)(s-Es)",
-     .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)")
+     .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)",
+     PF_EXAMPLES({"c = 2, g = 0.1, h = 0.1, c0/dt = 15: 0.1 (20 + 15) 3", 2, (double[]){2, 1, 1, 0.1},
+                  (double[]){3}, (double[]){10.5}, 1e-14}))
 {
     LANES (i)
         ds[i] = g * (speed / b->h[i] + b->shift) * dphi[i];
