@@ -233,6 +233,12 @@ typedef struct assembly_power {
 } assembly_power;
 
 /* Where the unknowns stand; all vectors have n_dof entries. */
+/* Sees every batch before its term does, from the thread that computes it. */
+typedef struct assembly_watch {
+    void (*look)(void *ctx, const term_use *use, const pf_batch *b, const double *const *in);
+    void *ctx;
+} assembly_watch;
+
 typedef struct assembly_state {
     double t, dt, shift;
     const double *x, *dot, *old;
@@ -241,6 +247,7 @@ typedef struct assembly_state {
     double faded;              /* part of the terms with PF_CONTINUATION that is left out: 0 none, 1 all of them */
     uint32_t only;             /* not 0: only terms with one of these flags, or of one of these kinds */
     assembly_power *power;     /* NULL: nobody asks */
+    const assembly_watch *watch; /* NULL: nobody looks */
 } assembly_state;
 
 int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int n_spec, int n_thread, error *err);

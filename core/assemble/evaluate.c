@@ -232,6 +232,8 @@ static int evaluate_term(const assembly_class *c, const assembly_state *s, int64
     b->params = p->use->params;
     b->metric = t->flags & PF_METRIC ? (double *)w->metric : NULL;
     w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
+    if (s->watch)
+        s->watch->look(s->watch->ctx, p->use, b, in);
     process_enter(w->report.plugin, t->name, "residual", cell);
     status = t->residual(b, in, out);
     if (!status && diagnose && find_nan_output(t, b, out, &w->report))

@@ -170,7 +170,8 @@ void entry_first_wrong(const bench *k, uint32_t o, uint32_t i, const double *giv
         guess(k, o, i, a, b, truth, why, sizeof why);
         snprintf(text, n, "d %s / d %s is %.6g%s, should be %.6g%s%s",
                  entry_name(&k->t->out[o], k->dim, j / cols, r, sizeof r),
-                 entry_name(&k->t->in[i], k->dim, j % cols, c, sizeof c), a[worst] + 0.0, of_a, b[worst] + 0.0, of_b, why); /* no -0 */
+                 entry_name(&k->t->in[i], k->dim, j % cols, c, sizeof c), a[worst] + 0.0, of_a, b[worst] + 0.0,
+                 of_b, why); /* no -0 */
         return;
     }
 }
