@@ -19,10 +19,15 @@ static int run_batch(const assembly *a, const assembly_class *c, const assembly_
         return 0;
 
     geometry_points(a, c, batch, w);
+    body_data_take(a, c, s, batch, w);
     inputs_values(a, c, s, batch, w);
     if (evaluate_terms(a, c, s, batch, value != NULL, diagnose, w)) {
         w->failed_batch = batch;
         return 1;
+    }
+    if (s->shown) {
+        w->failed_batch = show_batch(a, c, s, batch, w) ? batch : -1;
+        return w->failed_batch >= 0;
     }
     memset(w->vec, 0, (size_t)c->layout.n * sizeof *w->vec);
     for (int f = 0; f < a->space->n_field; f++) {
@@ -36,7 +41,7 @@ static int run_batch(const assembly *a, const assembly_class *c, const assembly_
     return 0;
 }
 
-static int report(const workspace *w, const assembly_class *c, error *err)
+int report_failure(const workspace *w, const assembly_class *c, error *err)
 {
     int code = error_set(err, w->report.status > 0 ? ERR_CONVERGE : ERR_PLUGIN, "%s (cells from %d)",
                          w->report.text, c->cell[c->batch[w->failed_batch]]);
@@ -88,7 +93,7 @@ static int run_slabs(assembly *a, const assembly_class *c, const assembly_state 
                 break;
     for (int k = 0; k < n; k++)
         if (a->work[k].failed_batch >= 0)
-            return report(&a->work[k], c, err);
+            return report_failure(&a->work[k], c, err);
     return 0;
 }
 
@@ -96,11 +101,14 @@ static int run_class(assembly *a, assembly_class *c, const assembly_state *s, do
                      int diagnose, error *err)
 {
     TRY(inputs_functions(a, c, &a->work[0], s->t, err));
+    TRY(walls_update(a, c, err));
     TRY(history_update(a, c, s->frame, err));
+    TRY(kept_update(a, c, s, err));
     TRY(shares_clear(a, c, value != NULL, err));
     for (int round = 0; round < SLAB_ROUNDS; round++)
         TRY(run_slabs(a, c, s, round * c->n_slab, c->n_slab, residual, value, diagnose, err));
-    shares_add(a, c, residual, value);
+    if (residual)
+        shares_add(a, c, residual, value);
     return run_slabs(a, c, s, SLAB_ROUNDS * c->n_slab, 1, residual, value, diagnose, err);
 }
 
@@ -120,6 +128,18 @@ int assembly_run(assembly *a, const assembly_state *s, double *residual, double 
     close_idle(a->space, a->idle, residual, value);
     if (s->power)
         power_sum(a, s->power);
+    return 0;
+}
+
+int assembly_show(assembly *a, const assembly_state *s, error *err)
+{
+    TRY(items_take(a, s->bodies, err));
+    TRY(show_begin(a, s->shown, err));
+    for (int k = 0; k < a->n_class; k++)
+        if (run_class(a, &a->class_[k], s, NULL, NULL, 0, err)) {
+            err->retry = 0; /* the step is over */
+            return err->code;
+        }
     return 0;
 }
 
@@ -149,6 +169,8 @@ void assembly_destroy(assembly *a)
     for (int i = 0; i < a->n_class; i++) {
         arena_free(&a->class_[i].item_memory);
         arena_free(&a->class_[i].frame_memory);
+        arena_free(&a->class_[i].kept_memory);
+        arena_free(&a->class_[i].wall_memory);
     }
     arena_free(&a->share_memory);
     arena_free(&a->memory);

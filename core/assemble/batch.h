@@ -6,35 +6,53 @@
 
 #include "assemble/assemble.h"
 
+/* What terms of interface 1.4 may read of bodies, as in pf_batch. */
+typedef struct body_data {
+    v8 *centre, *axes, *volume, *mass, *inertia;
+    v8 *fluid_force, *fluid_torque, *other_centre, *other_axes, *other_arm, *curvature;
+    int32_t *other_id;
+    struct {
+        const struct assembly_class *class_;
+        int stamp;
+        int32_t id;
+        double centre[3];
+    } last[PF_LANES]; /* whose data stand there, of a class with many points */
+} body_data;
+
 typedef struct workspace {
     v8 *x_node; /* [dim][nodes]                                            */
     v8 *gap, *size[2], *other_density;
     v8 *arm, *density;      /* [dim][n_q], [n_q] */
     int32_t *id;            /* [n_q][8] */
     v8 *w, *x, *normal, *h; /* [n_q], [dim][n_q], [dim][n_q], [n_q]                    */
-    v8 *metric;             /* [dim*dim][n_q], see pf_batch; NULL: no class has it */
+    body_data body;
+    v8 *metric; /* [dim*dim][n_q], see pf_batch; NULL: no class has it */
     /* Where the class has a tensor rule: dxi/dx [dim*dim][n_q], of a batch of boxes only its diagonal, the same at
      * all points, in scale; room for numbers at points by reference derivatives, and of the stages. */
     int boxes;
     v8 scale[3], *inverse, *reference, *stages;
-    v8 *basis[3][BASIS_ROWS]; /* [order][value, d/dx, d/dy, d/dz, Laplacian]: [i][n_q], i padded; NULL: not used, or
-                               the class has a tensor rule */
+    v8 *basis[3][BASIS_ROWS]; /* [order][value, d/dx, d/dy, d/dz, Laplacian, own value]: [i][n_q], i padded; NULL:
+                               not used, or the class has a tensor rule */
     v8 *dof;                  /* nodal values of one field                               */
-    v8 *rate;                 /* [3 + 9][n_q] room: a field and its gradient */
+    v8 *rate;                 /* room: a field and its gradient */
     const v8 *frame;          /* w and history of this batch, see assembly_class; NULL: none */
     v8 *in, *test, *block, *out, *jac, *room;
+    v8 *chain, *product; /* d property / d unknown, see plan_chain; d output / d property times that */
     uint8_t *filled;     /* [block_size] 1: some term has that entry of D; others have no value */
     v8 *g;               /* one strip of D B_j                                      */
     v8 *vec, *mat;       /* element vector and matrix, see element_layout            */
     v8 *still, *unknown; /* zeros for a rate; the unknowns as the tests take them [test_size] */
     const v8 *unknown_of[ASSEMBLE_MAX_TESTS]; /* of each test of the class: there, or among the inputs */
     double (*power)[POWERS];                  /* [assembly.n_use] */
+    double *kept;                             /* [VALUE_MAX][n_q] room, where there is memory */
     void *scratch;
     term_report report;
     int64_t failed_batch;
     arena memory;
 } workspace;
 
+/* The error of a batch that failed (assembly.c). */
+int report_failure(const workspace *w, const assembly_class *c, error *err);
 /* Orders the items of a class by slabs, in batches (slabs.c). */
 int slabs_make(assembly *a, assembly_class *c, arena *memory, error *err);
 /* shares.c: which bodies' rows have copies; the copies before the slabs run; that of an item, or NULL; afterwards.
@@ -65,6 +83,18 @@ int items_room(assembly_class *c, int64_t n, arena *memory, error *err);
 int items_order(assembly *a, assembly_class *c, arena *memory, error *err);
 /* Gives the classes that follow the bodies their items, if these are others than before (items.c). */
 int items_take(assembly *a, const body_points *b, error *err);
+/* slots.c: numbers in the lists of the class, negative with *err.  An input that is no property (data, key: where
+ * what is no field comes from, or NULL); the same, or a property, of slot k of a term; a test or trial function;
+ * trial functions of an unknown and, for a rate in the fluid, its slopes, else -1.  Then the room that a term
+ * needs. */
+int slots_input(assembly_class *c, const space *s, const pf_slot *slot, const value *data, const double *key,
+                error *err);
+int slots_find(assembly_class *c, const space *s, const term_use *use, uint32_t k, error *err);
+int slots_basis(assembly_class *c, const space *s, plan_basis *list, int *n, const pf_slot *slot, error *err);
+/* An output that is shown has a place of its own among the test functions, and no field. */
+int slots_shown(assembly_class *c, const space *s, const pf_slot *slot, error *err);
+int slots_trial(assembly_class *c, const space *s, const pf_slot *slot, int *trial, int *slope, error *err);
+void slots_sizes(assembly_class *c, const pf_term *t, int dim);
 int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error *err);
 /* Room for the values of the case's functions at the points of a class. */
 int inputs_room(arena *memory, assembly_class *c, error *err);
@@ -72,6 +102,13 @@ int workspace_create(const assembly *a, workspace *w, error *err);
 int inputs_functions(assembly *a, assembly_class *c, workspace *w, double t, error *err);
 /* History along moving paths at all points near bodies; once per placement of these (history.c). */
 int history_update(const assembly *a, assembly_class *c, const moving_frame *f, error *err);
+/* What a term sees of the points of a class (evaluate.c); its outputs [.] in w->out, before evaluate_end, which
+ * completes the report and returns the status; whether an output is none, and reports it. */
+pf_batch evaluate_batch(const assembly_class *c, const assembly_state *s, int dim, workspace *w);
+int evaluate_term(const assembly_class *c, const plan_use *p, int64_t batch, pf_batch *b, const double **in,
+                  double **out, workspace *w);
+int evaluate_end(int status, workspace *w);
+int evaluate_find_nan(const pf_term *t, const pf_batch *b, double *const *out, term_report *r);
 /* Of the batch: takes an input du/dt over to the moving paths; w->dof: nodal values of its field now. */
 void history_take(const assembly *a, const assembly_class *c, const assembly_state *s, const plan_input *in,
                   workspace *w);
@@ -90,6 +127,19 @@ v8 metric_of(int dim, int simplex, v8 inv[3][3], int a, int b);
 void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
 /* On pieces of surface (surface.c). */
 void geometry_surface(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
+/* The one point of bodies (PF_PARTICLE) and of pairs (body_data.c, geometry.c). */
+void points_of_bodies(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
+/* What a term may read of bodies beside arm, density and number: room for it; of a batch; where it stands. */
+int body_data_room(size_t n_q, size_t dim, workspace *w, error *err);
+void body_data_take(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                    workspace *w);
+void body_data_show(const assembly_class *c, const workspace *w, pf_batch *b);
+/* Which lanes are pairs within a term's reach: in[8], 1 or 0; how many are (reach.c). */
+int reach_of(const assembly *a, const assembly_class *c, const term_use *use, const workspace *w, int *in);
+/* Zeroes lanes that are not in, of n numbers. */
+void reach_mask(const int *in, double *v, size_t n);
+/* Distances from walls at all points of a class; once for its items (walls.c). */
+int walls_update(const assembly *a, assembly_class *c, error *err);
 /* Places of the nodes of the cells of a batch, to w->x_node. */
 void geometry_nodes(const assembly *a, const assembly_class *c, int64_t batch, workspace *w);
 /* Of a batch of boxes, in each direction. */
@@ -105,12 +155,47 @@ void inputs_values(const assembly *a, const assembly_class *c, const assembly_st
 /* The unknowns that the rows of the class belong to, as their test functions enter (value or gradient). */
 void inputs_unknowns(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                      workspace *w);
+/* properties.c.  Of a batch: what is published there and, with a matrix, w->chain.  Nonzero, with w->report, if a
+ * law fails, or gives no number. */
+int properties_evaluate(const assembly_class *c, int64_t batch, int with_matrix, int diagnose, pf_batch *b,
+                        workspace *w);
+/* The properties that a term takes lie where it makes sense (pf_slot.min, max), at points that count. */
+int properties_fit(const assembly_class *c, const plan_use *p, const pf_batch *b, workspace *w);
+/* d output / d property, [n_out][components of the property], times the chain: [n_out][components of its slot]. */
+const double *properties_product(const assembly_class *c, const plan_chain *chain, const double *jac, int n_out,
+                                 int dim, workspace *w);
+/* The field of an input that is frozen, of the pairs of a batch (properties_pairs.c). */
+void properties_frozen(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                       const plan_input *in, v8 *out);
 /* Adds the power of a term with outputs `out` to w->power (power.c); the outputs are overwritten. */
 int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, const plan_use *p, double factor,
               const pf_batch *b, const double *const *in, double *const *out, workspace *w);
 void power_clear(assembly *a);
 /* The sums of all threads, in their order. */
 void power_sum(const assembly *a, assembly_power *power);
+/* What shown terms gave at the points of a batch; not 0: NaN, see w->report.  Room beforehand (show.c). */
+int show_batch(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch, workspace *w);
+int show_begin(const assembly *a, assembly_shown *to, error *err);
+/* kept.c: prepares a class that has memory; values along moving paths, once per placement; of an input of a batch,
+ * [n_comp][n_q]; at a point of a cell, along the path through it. */
+int kept_place(assembly *a, assembly_class *c, error *err);
+int kept_update(const assembly *a, assembly_class *c, const assembly_state *s, error *err);
+void kept_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                 const plan_input *in, const workspace *w, v8 *out);
+void kept_along(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t cell,
+                const double *xi, const double *x, double *v);
+/* The same at all points of a cell that values are kept at; the polynomial nearest to values v[n_comp][n_q] at the
+ * points of an item that is a part of a cell, `at` before being what it is where these leave it open. */
+void kept_along_cell(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t cell,
+                     double *at);
+void kept_nearest(const assembly *a, const assembly_class *c, int64_t item, int n_comp, const double *v,
+                  double *at);
+/* inside.c.  Whether a term acts at any point of the batch; of n rows [ld] what is left where it does not: zero. */
+int inside_any(const assembly_class *c, const plan_use *p, const workspace *w);
+void inside_mask(const assembly_class *c, const plan_use *p, const workspace *w, double *rows, int n);
+/* The residual of a term at the points of a batch, zero outside of where it acts. */
+int inside_residual(const assembly_class *c, const plan_use *p, const pf_batch *b, const double *const *in,
+                    double *const *out, const workspace *w);
 /* Whether any term of the class takes part in this state. */
 int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s);
 int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
@@ -133,6 +218,21 @@ static inline int64_t assemble_item(const assembly_class *c, int64_t batch, int 
     int64_t first = c->batch[batch], last = c->batch[batch + 1] - 1, i = first + lane;
 
     return i < last ? i : last;
+}
+
+/* First row of a kind in workspace.basis; what a term calls it. */
+static inline int assemble_row(enum basis_kind kind)
+{
+    static const int row[BASIS_KINDS] = {0, 1, LAPLACE_ROW, FIRST_ROW, OTHER_ROW, OWN_ROW};
+
+    return row[kind];
+}
+
+static inline uint32_t assemble_eval(const assembly_class *c, enum basis_kind kind)
+{
+    static const uint32_t eval[BASIS_KINDS] = {PF_VALUE, PF_GRAD, PF_LAPLACE, PF_VALUE, PF_OTHER};
+
+    return kind == BASIS_VALUE && c->where == PF_PAIR ? PF_DEFECT : eval[kind];
 }
 
 static inline int assemble_padded(int n)

@@ -33,12 +33,12 @@ void element_vector(const assembly *a, const assembly_class *c, int field, works
                               grad < 0 ? NULL : w->test + c->test[grad].at * (size_t)nq, w);
         return;
     }
-    for (int grad = 0; grad < 2; grad++) {
-        int t = find_basis(c->test, c->n_test, field, grad ? BASIS_GRAD : BASIS_VALUE);
+    for (enum basis_kind kind = BASIS_VALUE; kind < BASIS_KINDS; kind++) {
+        int t = find_basis(c->test, c->n_test, field, kind), grad = kind == BASIS_GRAD;
 
         for (int e = 0; t >= 0 && e < f->n_comp * (grad ? dim : 1); e++) {
             const v8 *restrict s = w->test + (c->test[t].at + (size_t)e) * (size_t)nq;
-            const v8 *basis = w->basis[f->order][grad ? 1 + e % dim : 0];
+            const v8 *basis = w->basis[f->order][assemble_row(kind) + (grad ? e % dim : 0)];
 
             for (int i = 0; i < n; i++) {
                 const v8 *restrict b = basis + i * nq;
@@ -54,31 +54,30 @@ void element_vector(const assembly *a, const assembly_class *c, int field, works
 
 /* Test functions of one field and trial functions of another, by kind; -1: not used. */
 typedef struct basis_pair {
-    int test[BASIS_GRAD + 1], trial[BASIS_LAPLACE + 1];
+    int test[BASIS_KINDS], trial[BASIS_KINDS];
 } basis_pair;
 
 /* Non-zero entries of D between component a of the rows and b of the columns: d[e][f]. */
 static int coefficients(const assembly_class *c, const basis_pair *p, int a, int b, int dim, const workspace *w,
                         const v8 *d[TEST_ROWS][BASIS_ROWS])
 {
-    static const int first_row[] = {0, 1, LAPLACE_ROW};
     int any = 0;
 
     memset(d, 0, TEST_ROWS * sizeof d[0]);
-    for (enum basis_kind ge = BASIS_VALUE; ge <= BASIS_GRAD; ge++)
-        for (enum basis_kind gf = BASIS_VALUE; gf <= BASIS_LAPLACE; gf++) {
+    for (enum basis_kind ge = BASIS_VALUE; ge < BASIS_KINDS; ge++)
+        for (enum basis_kind gf = BASIS_VALUE; p->test[ge] >= 0 && gf < BASIS_KINDS; gf++) {
             int t = p->test[ge], r = p->trial[gf];
 
-            if (t < 0 || r < 0 || c->block[t][r] == SIZE_MAX)
+            if (r < 0 || c->block[t][r] == SIZE_MAX)
                 continue;
-            for (int e = 0; e < (ge ? dim : 1); e++)
+            for (int e = 0; e < (ge == BASIS_GRAD ? dim : 1); e++)
                 for (int f = 0; f < (gf == BASIS_GRAD ? dim : 1); f++) {
-                    int row = ge ? a * dim + e : a, col = gf == BASIS_GRAD ? b * dim + f : b;
+                    int row = ge == BASIS_GRAD ? a * dim + e : a, col = gf == BASIS_GRAD ? b * dim + f : b;
                     size_t entry = c->block[t][r] + (size_t)(row * c->trial[r].n_comp + col);
 
                     if (!w->filled[entry])
                         continue;
-                    d[first_row[ge] + e][first_row[gf] + f] = w->block + entry * (size_t)c->n_q;
+                    d[assemble_row(ge) + e][assemble_row(gf) + f] = w->block + entry * (size_t)c->n_q;
                     any = 1;
                 }
         }
@@ -170,10 +169,10 @@ static void field_block(const assembly *as, const assembly_class *c, int row_fie
     int dim = as->space->mesh->dim;
     basis_pair pair;
 
-    for (enum basis_kind e = BASIS_VALUE; e <= BASIS_GRAD; e++)
+    for (enum basis_kind e = BASIS_VALUE; e < BASIS_KINDS; e++) {
         pair.test[e] = find_basis(c->test, c->n_test, row_field, e);
-    for (enum basis_kind e = BASIS_VALUE; e <= BASIS_LAPLACE; e++)
         pair.trial[e] = find_basis(c->trial, c->n_trial, col_field, e);
+    }
     for (int a = 0; a < rf->n_comp; a++)
         for (int b = 0; b < cf->n_comp; b++) {
             const v8 *d[TEST_ROWS][BASIS_ROWS];

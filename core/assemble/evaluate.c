@@ -23,9 +23,9 @@ static void add_output(const assembly_class *c, const plan_use *p, double factor
     size_t ld = (size_t)c->n_q * PF_LANES;
 
     for (uint32_t o = 0; o < t->n_out; o++) {
-        double *restrict to = (double *)(w->test + c->test[p->out[o]].at * (size_t)c->n_q);
+        double *restrict to = (double *)(w->test + c->test[p->out[o] < 0 ? 0 : p->out[o]].at * (size_t)c->n_q);
         const double *restrict from = out[o];
-        int n = t->out[o].eval == PF_DIV ? dim : term_components(t->out[o].shape, dim);
+        int n = p->out[o] < 0 ? 0 : t->out[o].eval == PF_DIV ? dim : term_components(t->out[o].shape, dim);
 
         for (int k = 0; k < n; k++) { /* q div v is q I : grad v */
             double *restrict row = to + (size_t)(t->out[o].eval == PF_DIV ? k * dim + k : k) * ld;
@@ -97,7 +97,7 @@ static int find_nan(const pf_batch *b, const double *v, size_t n, const pf_slot 
     return 0;
 }
 
-static int find_nan_output(const pf_term *t, const pf_batch *b, double *const *out, term_report *r)
+int evaluate_find_nan(const pf_term *t, const pf_batch *b, double *const *out, term_report *r)
 {
     for (uint32_t o = 0; o < t->n_out; o++)
         if (find_nan(b, out[o], (size_t)term_components(t->out[o].shape, (int)b->dim) * b->ld, &t->out[o], NULL, r))
@@ -118,8 +118,39 @@ static int find_nan_derivative(const pf_term *t, const pf_batch *b, double *cons
     return 0;
 }
 
+/* Whether the derivative by slot k, a property, is: the terms' own Jacobians give it, needed or not. */
+static int is_wanted(const assembly_class *c, const plan_use *p, uint32_t k)
+{
+    return p->use->term->in[k].eval == PF_PROPERTY &&
+           (c->input[p->in[k]].law || term_derives_by_hand(p->use->term, p->use->how));
+}
+
+/* The derivative of output o by slot k, a property, and that of the property by the unknowns it depends on. */
+static void add_chained(const assembly_class *c, const assembly_state *s, const plan_use *p, uint32_t o, uint32_t k,
+                        const double *jac, int dim, workspace *w)
+{
+    const pf_slot *out = &p->use->term->out[o];
+    const size_t nq = (size_t)c->n_q, ld = nq * PF_LANES;
+
+    for (int i = 0; i < c->n_chain; i++) {
+        const plan_chain *chain = &c->chain[i];
+        const double factor = strength(s, p) * (chain->slot->eval == PF_DOT ? s->shift : 1), *product;
+        size_t block = c->block[p->out[o]][chain->trial];
+
+        if (chain->property != p->in[k] || block == SIZE_MAX || factor == 0)
+            continue;
+        product = properties_product(c, chain, jac, term_components(out->shape, dim), dim, w);
+        add_block(out, chain->slot, c->trial[chain->trial].n_comp, factor, product, dim, ld,
+                  (double *)(w->block + block * nq), w->filled + block);
+        block = chain->slope >= 0 && w->frame ? c->block[p->out[o]][chain->slope] : SIZE_MAX;
+        if (block != SIZE_MAX && (s->frame->fields >> c->trial[chain->slope].field & 1))
+            history_jacobian(out, chain->slot, c->trial[chain->slope].n_comp, strength(s, p), product, dim, ld,
+                             (const double *)w->frame, (double *)(w->block + block * nq), w->filled + block);
+    }
+}
+
 static int add_jacobian(const assembly_class *c, const assembly_state *s, const plan_use *p, const pf_batch *b,
-                        const double *const *in, int dim, int diagnose, workspace *w)
+                        const double *const *in, const int *within, int dim, int diagnose, workspace *w)
 {
     const pf_term *t = p->use->term;
     double *jac[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
@@ -129,11 +160,15 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
 
     for (uint32_t o = 0; o < t->n_out; o++)
         for (uint32_t k = 0; k < t->n_in; k++) {
-            jac[o * t->n_in + k] = p->trial[k] >= 0 ? at + used : NULL;
+            jac[o * t->n_in + k] = p->trial[k] >= 0 || is_wanted(c, p, k) ? at + used : NULL;
             used += (size_t)(term_components(t->out[o].shape, dim) * term_components(t->in[k].shape, dim)) * ld;
         }
     memset(w->jac, 0, used * sizeof(double));
     status = term_jacobian(t, p->use->how, b, in, jac, w->room);
+    if (!status && p->inside >= 0) /* blocks lie one after the other */
+        inside_mask(c, p, w, at, (int)(used / ld));
+    if (within)
+        reach_mask(within, at, used);
     if (!status && diagnose && find_nan_derivative(t, b, jac, &w->report))
         return PF_FAIL;
     for (uint32_t o = 0; o < t->n_out && !status; o++)
@@ -141,7 +176,9 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
             double factor = strength(s, p) * (t->in[k].eval == PF_DOT ? b->shift : 1);
             size_t block;
 
-            if (p->trial[k] < 0 || factor == 0)
+            if (t->in[k].eval == PF_PROPERTY && p->out[o] >= 0)
+                add_chained(c, s, p, o, k, jac[o * t->n_in + k], dim, w);
+            if (p->trial[k] < 0 || p->out[o] < 0 || factor == 0)
                 continue;
             block = c->block[p->out[o]][p->trial[k]];
             if (block != SIZE_MAX)
@@ -165,7 +202,7 @@ static uint32_t kinds(const assembly *a, const plan_use *p)
     for (uint32_t i = 0; (t->where == PF_SOLID || t->where == PF_SURFACE) && i < t->n_in + t->n_out; i++) {
         const pf_slot *s = i < t->n_in ? &t->in[i] : &t->out[i - t->n_in];
 
-        if (s->eval != PF_DATA && a->space->field[space_find_field(a->space, s->field)].order > 0)
+        if (term_slot_field(s) && a->space->field[space_find_field(a->space, s->field)].order > 0)
             k |= ASSEMBLE_COUPLING;
     }
     k |= term_stores(t, NULL) ? ASSEMBLE_INERTIA : 0;
@@ -174,21 +211,23 @@ static uint32_t kinds(const assembly *a, const plan_use *p)
 
 int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s)
 {
-    int any = !s->only;
+    int any = !s->only, equations = 0;
 
     for (int u = 0; u < c->n_use; u++)
         any |= (kinds(a, &c->use[u]) & s->only) != 0;
-    return any;
+    for (int u = 0; u < c->n_use; u++)
+        equations |= c->use[u].equations;
+    return any && equations;
 }
 
 /* What a term sees of the points of a class: what has no meaning there is NULL. */
-static pf_batch batch_of(const assembly_class *c, const assembly_state *s, int dim, workspace *w)
+pf_batch evaluate_batch(const assembly_class *c, const assembly_state *s, int dim, workspace *w)
 {
     int on_pair = c->where == PF_PAIR, on_surface = c->where == PF_SURFACE;
-    int on_body = c->where == PF_SOLID || on_surface || on_pair;
+    int on_particle = c->where == PF_PARTICLE,
+        on_body = c->where == PF_SOLID || on_surface || on_pair || on_particle;
     uint32_t ld = (uint32_t)(c->n_q * (int)PF_LANES);
-
-    return (pf_batch){
+    pf_batch b = {
         .size = sizeof(pf_batch),
         .dim = (uint32_t)dim,
         .n = ld,
@@ -199,7 +238,7 @@ static pf_batch batch_of(const assembly_class *c, const assembly_state *s, int d
         .x = (double *)w->x,
         .normal = c->where == PF_FACET || on_surface || on_pair ? (double *)w->normal : NULL,
         .h = (double *)w->h,
-        .arm = c->where == PF_SOLID || on_surface ? (double *)w->arm : NULL,
+        .arm = on_body && (!on_pair || c->any_body_data) ? (double *)w->arm : NULL,
         .density = on_body ? (double *)w->density : NULL,
         .id = on_body ? w->id : NULL,
         .gap = on_pair ? (double *)w->gap : NULL,
@@ -210,44 +249,34 @@ static pf_batch batch_of(const assembly_class *c, const assembly_state *s, int d
         .kernel = &w->report,
         .host = &term_host,
     };
+
+    body_data_show(c, w, &b);
+    return b;
 }
 
-/* Residual and, if asked for, derivatives of one term, added to what the others gave. */
-static int evaluate_term(const assembly_class *c, const assembly_state *s, int64_t batch, const plan_use *p,
-                         int dim, int with_matrix, int diagnose, pf_batch *b, workspace *w)
+int evaluate_term(const assembly_class *c, const plan_use *p, int64_t batch, pf_batch *b, const double **in,
+                  double **out, workspace *w)
 {
     const pf_term *t = p->use->term;
-    size_t nq = (size_t)c->n_q, ld = nq * PF_LANES;
-    const double *in[TERM_MAX_SLOTS];
-    double *out[TERM_MAX_SLOTS], *at = (double *)w->out;
-    int64_t cell = c->cell[c->batch[batch]];
-    int status;
+    double *at = (double *)w->out;
 
     for (uint32_t k = 0; k < t->n_in; k++)
-        in[k] = (double *)(w->in + c->input[p->in[k]].at * nq);
+        in[k] = (double *)(w->in + c->input[p->in[k]].at * (size_t)c->n_q);
     for (uint32_t o = 0; o < t->n_out; o++) {
         out[o] = at;
-        at += (size_t)term_components(t->out[o].shape, dim) * ld;
+        at += (size_t)term_components(t->out[o].shape, (int)b->dim) * b->ld;
     }
     b->params = p->use->params;
     b->metric = t->flags & PF_METRIC ? (double *)w->metric : NULL;
+    b->wall_distance = t->flags & PF_WALL_DISTANCE ? (double *)(c->wall + batch * c->n_q) : NULL;
     w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
-    if (s->watch)
-        s->watch->look(s->watch->ctx, p->use, b, in);
-    process_enter(w->report.plugin, t->name, "residual", cell);
-    status = t->residual(b, in, out);
-    if (!status && diagnose && find_nan_output(t, b, out, &w->report))
-        status = PF_FAIL;
-    if (!status) {
-        add_output(c, p, strength(s, p), out, dim, w);
-        if (s->power)
-            status = power_add(c, s, batch, p, strength(s, p), b, in, out, w);
-    }
-    if (!status) {
-        process_enter(w->report.plugin, t->name, "Jacobian", cell);
-        if (with_matrix)
-            status = add_jacobian(c, s, p, b, in, dim, diagnose, w);
-    }
+    process_enter(w->report.plugin, t->name, "residual", c->cell[c->batch[batch]]);
+    TRY(properties_fit(c, p, b, w));
+    return inside_residual(c, p, b, in, out, w);
+}
+
+int evaluate_end(int status, workspace *w)
+{
     process_leave();
     if (status && !w->report.status)
         snprintf(w->report.text, sizeof w->report.text, "term %s.%s returned %d without saying why",
@@ -257,23 +286,56 @@ static int evaluate_term(const assembly_class *c, const assembly_state *s, int64
     return status;
 }
 
+/* Residual and, if asked for, derivatives of one term, added to what the others gave. */
+static int add_term(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
+                    const plan_use *p, int with_matrix, int diagnose, pf_batch *b, workspace *w)
+{
+    const pf_term *t = p->use->term;
+    const double *in[TERM_MAX_SLOTS];
+    double *out[TERM_MAX_SLOTS];
+    int dim = (int)b->dim, within[PF_LANES], n_within = reach_of(a, c, p->use, w, within);
+    int status, masked = n_within < (int)PF_LANES;
+
+    if (n_within == 0)
+        return 0;
+    status = evaluate_term(c, p, batch, b, in, out, w);
+    if (!status && s->watch)
+        s->watch->look(s->watch->ctx, p->use, b, in);
+    for (uint32_t o = 0; masked && o < t->n_out; o++)
+        reach_mask(within, out[o], (size_t)term_components(t->out[o].shape, dim) * b->ld);
+    if (!status && diagnose && evaluate_find_nan(t, b, out, &w->report))
+        status = PF_FAIL;
+    if (!status) {
+        add_output(c, p, strength(s, p), out, dim, w);
+        if (s->power)
+            status = power_add(c, s, batch, p, strength(s, p), b, in, out, w);
+    }
+    if (!status) {
+        process_enter(w->report.plugin, t->name, "Jacobian", c->cell[c->batch[batch]]);
+        if (with_matrix)
+            status = add_jacobian(c, s, p, b, in, masked ? within : NULL, dim, diagnose, w);
+    }
+    return evaluate_end(status, w);
+}
+
 int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                    int with_matrix, int diagnose, workspace *w)
 {
     int dim = a->space->mesh->dim;
     size_t nq = (size_t)c->n_q;
-    pf_batch b = batch_of(c, s, dim, w);
+    pf_batch b = evaluate_batch(c, s, dim, w);
 
     memset(w->test, 0, c->test_size * nq * sizeof(v8));
     if (with_matrix)
         memset(w->filled, 0, c->block_size);
     if (s->power)
         inputs_unknowns(a, c, s, batch, w);
+    TRY(properties_evaluate(c, batch, with_matrix, diagnose, &b, w));
     for (int u = 0; u < c->n_use; u++) {
         const plan_use *p = &c->use[u];
 
-        if (strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)))
-            TRY(evaluate_term(c, s, batch, p, dim, with_matrix, diagnose, &b, w));
+        if (p->equations && strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)) && inside_any(c, p, w))
+            TRY(add_term(a, c, s, batch, p, with_matrix, diagnose, &b, w));
     }
     return 0;
 }

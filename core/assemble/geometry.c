@@ -4,6 +4,7 @@
 #include "assemble/batch.h"
 
 #include <math.h>
+#include <string.h>
 
 static v8 v8_sqrt(v8 a)
 {
@@ -82,8 +83,11 @@ static void points_of_pairs(const assembly *a, const assembly_class *c, int64_t 
     const v8 zero = {0};
 
     w->w[0] = zero + 1;
-    for (int k = 0; k <= ASSEMBLE_PAD; k++)
+    for (int k = 0; k <= ASSEMBLE_PAD; k++) {
         w->basis[0][0][k] = zero + (k == 0 ? 1.0 : k == 1 ? -1.0 : 0.0);
+        w->basis[0][FIRST_ROW][k] = zero + (k == 0);
+        w->basis[0][OTHER_ROW][k] = zero + (k == 1);
+    }
     for (int l = 0; l < 8; l++) {
         const near_pair *near = &c->pair[c->source[assemble_item(c, batch, l)]];
 
@@ -99,6 +103,18 @@ static void points_of_pairs(const assembly *a, const assembly_class *c, int64_t 
             w->normal[k][l] = near->normal[k];
         }
     }
+}
+
+/* What properties take of a bad cell is of its own functions; those of the root have no part in it. */
+static void own_basis(const assembly_class *c, int n_basis, int order, workspace *w)
+{
+    int nq = c->n_q, all = assemble_padded(2 * n_basis);
+
+    for (int i = 0; c->own_used[order] && i < all * nq; i++)
+        w->basis[order][OWN_ROW][i] = i < n_basis * nq ? w->basis[order][0][i] : (v8){0};
+    for (int k = 1; k <= LAPLACE_ROW; k++)
+        if (k == LAPLACE_ROW ? c->laplace_used[order] : c->grad_used[order] && w->basis[order][k])
+            memset(w->basis[order][k] + n_basis * nq, 0, (size_t)((all - n_basis) * nq) * sizeof(v8));
 }
 
 /* The root of a bad cell: its basis at the points of the bad one, with the opposite sign. */
@@ -121,6 +137,8 @@ static void points_of_roots(const assembly *a, const assembly_class *c, int64_t 
                     w->basis[order][0][(n_basis + i) * nq + q][l] = i < n_basis ? -n[i] : 0;
             }
         }
+    for (int order = 1; order < 3; order++)
+        own_basis(c, fe_n_basis(type, order), order, w);
 }
 
 /* Values and gradients of the basis functions at point q of rule f. */
@@ -170,28 +188,14 @@ static void second_at(const assembly_class *c, const fe_cell *type, int f, int q
     }
 }
 
-void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
+/* Points of cells, cut or whole, and of facets, by the mapping of their cells. */
+static void points_of_cells(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
 {
     const mesh *m = a->space->mesh;
     const fe_cell *type = m->type;
     int dim = m->dim, nq = c->n_q, f = c->facet[c->batch[batch]];
     v8 h, on;
 
-    if (c->where == PF_PAIR) {
-        points_of_pairs(a, c, batch, w);
-        return;
-    }
-    if (c->where == PF_SURFACE) {
-        geometry_surface(a, c, batch, w);
-        particle_slots(a, c, batch, w);
-        return;
-    }
-    if (c->tensor) {
-        geometry_tensor(a, c, batch, w);
-        if (c->where == PF_SOLID)
-            particle_slots(a, c, batch, w);
-        return;
-    }
     geometry_nodes(a, c, batch, w);
     for (int l = 0; l < 8; l++) {
         int64_t cell = c->cell[assemble_item(c, batch, l)];
@@ -228,6 +232,20 @@ void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, 
     }
     if (c->where == PF_CUT)
         points_of_roots(a, c, batch, w);
-    if (c->where == PF_SOLID)
+}
+
+void geometry_points(const assembly *a, const assembly_class *c, int64_t batch, workspace *w)
+{
+    if (c->where == PF_PAIR)
+        points_of_pairs(a, c, batch, w);
+    else if (c->where == PF_PARTICLE)
+        points_of_bodies(a, c, batch, w);
+    else if (c->where == PF_SURFACE)
+        geometry_surface(a, c, batch, w);
+    else if (c->tensor)
+        geometry_tensor(a, c, batch, w);
+    else
+        points_of_cells(a, c, batch, w);
+    if (c->where == PF_SURFACE || c->where == PF_SOLID)
         particle_slots(a, c, batch, w);
 }

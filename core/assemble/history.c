@@ -63,7 +63,7 @@ int history_update(const assembly *a, assembly_class *c, const moving_frame *f, 
     int nq = c->n_q, n_comp;
     int64_t n = 0;
 
-    if (!f || c->where != PF_FLUID || c->frame_stamp == f->stamp)
+    if (!f || !f->fields || c->where != PF_FLUID || c->frame_stamp == f->stamp)
         return 0;
     n_comp = frame_components(s, f);
     arena_free(&c->frame_memory);

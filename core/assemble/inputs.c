@@ -23,6 +23,20 @@ static void gather(const assembly *a, const assembly_class *c, int64_t batch, in
     }
 }
 
+/* A key of the bodies at the points: of the body there, or of the other one of a pair. */
+static void take_key(const assembly_class *c, const plan_input *in, const workspace *w, v8 *out)
+{
+    const int32_t *id = in->eval == PF_OTHER_KEY ? w->body.other_id : w->id;
+
+    for (int q = 0; q < c->n_q; q++)
+        for (int l = 0; l < 8; l++)
+            for (int i = 0; i < in->n_comp; i++) {
+                int32_t k = id[q * 8 + l];
+
+                out[i * c->n_q + q][l] = k < 0 ? 0 : in->key[k * in->n_comp + i];
+            }
+}
+
 void inputs_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch, workspace *w)
 {
     const space *sp = a->space;
@@ -36,11 +50,27 @@ void inputs_values(const assembly *a, const assembly_class *c, const assembly_st
         const double *from = in->eval == PF_DOT ? s->dot : in->eval == PF_OLD ? s->old : s->x;
         v8 *out = w->in + in->at * (size_t)nq;
 
+        if (in->law) /* by properties_evaluate */
+            continue;
+        if (in->frozen) {
+            properties_frozen(a, c, s, batch, in, out);
+            continue;
+        }
+        if (in->key) {
+            take_key(c, in, w, out);
+            continue;
+        }
+        if (in->kept >= 0) {
+            kept_values(a, c, s, batch, in, w, out);
+            continue;
+        }
         if (in->field < 0) {
+            const double *constant = in->number ? in->number : in->data->constant;
+
             for (int i = 0; i < in->n_comp; i++)
                 for (int q = 0; q < nq; q++)
                     out[i * nq + q] =
-                        in->table ? in->table[(batch * in->n_comp + i) * nq + q] : (v8){0} + in->data->constant[i];
+                        in->table ? in->table[(batch * in->n_comp + i) * nq + q] : (v8){0} + constant[i];
             continue;
         }
         if (from != gathered || in->field != gathered_field) {
@@ -65,7 +95,7 @@ void inputs_unknowns(const assembly *a, const assembly_class *c, const assembly_
     for (int t = 0; t < c->n_test; t++) {
         const plan_basis *test = &c->test[t];
         const field_spec *f = &sp->field[test->field];
-        uint32_t eval = test->kind == BASIS_GRAD ? PF_GRAD : PF_VALUE;
+        uint32_t eval = assemble_eval(c, test->kind);
         v8 *to = w->unknown + test->at * (size_t)c->n_q;
 
         w->unknown_of[t] = NULL;

@@ -42,8 +42,14 @@ static void interpolate_product(const assembly_class *c, const field_spec *f, ui
 
 void interpolate(const assembly_class *c, const field_spec *f, int dim, uint32_t eval, workspace *w, v8 *to)
 {
-    int grad = eval == PF_GRAD, div = eval == PF_DIV, nq = c->n_q, n = c->n_basis[f->order];
-    int first = eval == PF_LAPLACE ? LAPLACE_ROW : grad || div ? 1 : 0, last = grad || div ? dim : first;
+    int grad = eval == PF_GRAD, div = eval == PF_DIV, nq = c->n_q, width = c->n_basis[f->order];
+    int n = c->where == PF_CUT && eval != PF_DEFECT ? width / 2 : width; /* the first half: of the bad cell */
+    int alone = c->where == PF_PAIR && eval != PF_DEFECT;
+    int first = eval == PF_LAPLACE ? LAPLACE_ROW
+                : alone            ? (eval == PF_OTHER ? OTHER_ROW : FIRST_ROW)
+                : grad || div      ? 1
+                                   : 0,
+        last = grad || div ? dim : first;
 
     if (c->tensor) {
         interpolate_product(c, f, eval, w, to);
@@ -57,7 +63,7 @@ void interpolate(const assembly_class *c, const field_spec *f, int dim, uint32_t
             if (div && k != a + 1)
                 continue;
             for (int i = 0; i < n; i++) {
-                v8 u = w->dof[a * n + i];
+                v8 u = w->dof[a * width + i];
                 const v8 *restrict b = w->basis[f->order][k] + i * nq;
 
                 for (int q = 0; q < nq; q++)

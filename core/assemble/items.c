@@ -18,6 +18,7 @@ int items_room(assembly_class *c, int64_t n, arena *memory, error *err)
 int items_order(assembly *a, assembly_class *c, arena *memory, error *err)
 {
     TRY(slabs_make(a, c, memory, err));
+    c->wall_ready = 0;
     TRY(layout_items(a, c, memory, err));
     TRY(fresh_find(a, c, memory, err));
     return inputs_room(memory, c, err);
@@ -37,6 +38,20 @@ static int set_pairs(assembly_class *c, const body_points *b, error *err)
     for (int64_t i = 0; i < b->n_pair; i++)
         c->group[i] = b->pair[i].group;
     return 0;
+}
+
+/* The problem and each body stand together in the group of any cell near the body. */
+static int set_bodies(const space *s, assembly_class *c, error *err)
+{
+    int64_t n = 0;
+
+    TRY(renew_items(c, s->n_particle, err));
+    for (int64_t i = 0; i < s->n_attached && n < s->n_particle; i++)
+        if (s->attached_particle[i] == n) { /* the pairs of a body lie together, in the order of the bodies */
+            c->cell[n] = s->attached_cell[i];
+            c->group[n++] = space_attached_group(s, i);
+        }
+    return n == s->n_particle ? 0 : error_set(err, ERR_CONVERGE, "particle %d has no cell near it", (int)n);
 }
 
 static int set_solid(const space *s, assembly_class *c, const body_points *b, error *err)
@@ -96,6 +111,8 @@ int items_take(assembly *a, const body_points *b, error *err)
 
         if (c->where == PF_PAIR)
             TRY(set_pairs(c, b, err));
+        else if (c->where == PF_PARTICLE)
+            TRY(set_bodies(a->space, c, err));
         else if (c->where == PF_SOLID)
             TRY(set_solid(a->space, c, b, err));
         else if (c->where == PF_FLUID && c->follows)

@@ -15,11 +15,11 @@ static uint32_t fields_of(const assembly_class *c)
     uint32_t found = 0;
 
     for (int t = 0; t < c->n_test; t++)
-        found |= 1u << c->test[t].field;
+        found |= c->test[t].field < 0 ? 0 : 1u << c->test[t].field;
     for (int t = 0; t < c->n_trial; t++)
         found |= 1u << c->trial[t].field;
     for (int k = 0; k < c->n_input; k++)
-        found |= c->input[k].field < 0 ? 0 : 1u << c->input[k].field;
+        found |= c->input[k].field < 0 || c->input[k].frozen ? 0 : 1u << c->input[k].field;
     return found;
 }
 

@@ -9,72 +9,6 @@
 
 enum { FACET_DEGREE = 5 };
 
-static enum basis_kind kind_of(const pf_slot *slot)
-{
-    switch (slot->eval) {
-    case PF_GRAD:
-    case PF_DIV:
-        return BASIS_GRAD;
-    case PF_LAPLACE:
-        return BASIS_LAPLACE;
-    default:
-        return BASIS_VALUE;
-    }
-}
-
-static void mark_used(assembly_class *c, int order, enum basis_kind kind)
-{
-    c->order_used[order] = 1;
-    c->grad_used[order] |= kind == BASIS_GRAD;
-    c->laplace_used[order] |= kind == BASIS_LAPLACE;
-    c->any_laplace |= kind == BASIS_LAPLACE;
-}
-
-static int find_input(assembly_class *c, const space *s, const pf_slot *slot, const value *data, error *err)
-{
-    int f = slot->eval == PF_DATA ? -1 : space_find_field(s, slot->field);
-    plan_input *in;
-
-    for (int i = 0; i < c->n_input; i++)
-        if (c->input[i].field == f && c->input[i].eval == slot->eval && c->input[i].data == data)
-            return i;
-    if (c->n_input == ASSEMBLE_MAX_INPUTS)
-        return -error_set(err, ERR_PLUGIN, "the terms need more than %d different inputs", ASSEMBLE_MAX_INPUTS);
-    in = &c->input[c->n_input];
-    *in = (plan_input){.field = f, .eval = slot->eval, .data = data, .at = c->in_size};
-    in->n_comp = term_components(slot->shape, s->mesh->dim);
-    c->in_size += (size_t)in->n_comp;
-    if (f >= 0) {
-        mark_used(c, s->field[f].order, kind_of(slot));
-        if (slot->eval == PF_DOT && c->where == PF_FLUID) /* see moving_frame */
-            c->grad_used[s->field[f].order] = 1;
-    }
-    return c->n_input++;
-}
-
-static int find_basis(assembly_class *c, const space *s, plan_basis *list, int *n, const pf_slot *slot, error *err)
-{
-    int f = space_find_field(s, slot->field);
-    enum basis_kind kind = kind_of(slot);
-    plan_basis *b = &list[*n];
-
-    for (int i = 0; i < *n; i++)
-        if (list[i].field == f && list[i].kind == kind)
-            return i;
-    if (*n == ASSEMBLE_MAX_TESTS)
-        return -error_set(err, ERR_PLUGIN, "the terms need more than %d different test functions",
-                          ASSEMBLE_MAX_TESTS);
-    *b = (plan_basis){
-        .field = f, .kind = kind, .n_comp = s->field[f].n_comp * (kind == BASIS_GRAD ? s->mesh->dim : 1)};
-    mark_used(c, s->field[f].order, kind);
-    return (*n)++;
-}
-
-static size_t max_size(size_t a, size_t b)
-{
-    return a > b ? a : b;
-}
-
 /* The number of a term, the same on the points of all classes. */
 static int number_use(assembly *a, term_use *use)
 {
@@ -87,46 +21,67 @@ static int number_use(assembly *a, term_use *use)
     return i;
 }
 
+/* Marks the blocks of D that output o of a term can fill by its slot k. */
+static void couple(assembly_class *c, plan_use *p, uint32_t o, uint32_t k, int dim)
+{
+    const size_t rows = (size_t)term_components(p->use->term->out[o].shape, dim);
+
+    if (p->trial[k] >= 0)
+        c->block[p->out[o]][p->trial[k]] = 0;
+    if (p->slope[k] >= 0)
+        c->block[p->out[o]][p->slope[k]] = 0;
+    for (int i = 0; i < c->n_chain; i++) {
+        const plan_chain *chain = &c->chain[i];
+
+        if (chain->property != p->in[k])
+            continue;
+        p->varies = 1;
+        c->block[p->out[o]][chain->trial] = 0;
+        if (chain->slope >= 0)
+            c->block[p->out[o]][chain->slope] = 0;
+        if (c->product_size < rows * (size_t)term_components(chain->slot->shape, dim))
+            c->product_size = rows * (size_t)term_components(chain->slot->shape, dim);
+    }
+}
+
 /* Adds one term; marks the blocks of D that it can fill. */
 static int add_use(assembly_class *c, const space *s, term_use *use, error *err)
 {
     const pf_term *t = use->term;
     plan_use *p = &c->use[c->n_use++];
-    size_t out = 0, jac = 0;
-    int dim = s->mesh->dim;
+    const int shows = term_kind(t) == TERM_SHOWS; /* nothing is solved for: no derivatives */
 
     p->use = use;
-    c->any_metric |= (t->flags & PF_METRIC) != 0;
-    for (uint32_t k = 0; k < t->n_in; k++) {
-        const pf_slot *slot = &t->in[k];
-
-        p->in[k] = find_input(c, s, slot, use->data[k], err);
-        p->trial[k] = term_is_unknown(slot) ? find_basis(c, s, c->trial, &c->n_trial, slot, err) : -1;
-        p->slope[k] = slot->eval == PF_DOT && c->where == PF_FLUID
-                          ? find_basis(c, s, c->trial, &c->n_trial,
-                                       &(pf_slot){.field = slot->field, .shape = slot->shape, .eval = PF_GRAD}, err)
-                          : -1;
-        if (p->in[k] < 0 || (term_is_unknown(slot) && p->trial[k] < 0) ||
-            (slot->eval == PF_DOT && c->where == PF_FLUID && p->slope[k] < 0))
+    p->inside = -1;
+    if (use->inside) {
+        p->inside = slots_input(c, s, &(pf_slot){.eval = PF_DATA, .shape = PF_SCALAR}, use->inside, NULL, err);
+        if (p->inside < 0)
             return err->code;
+    }
+    c->any_body_data |= use->plugin->d.min_minor >= 4;
+    for (uint32_t k = 0; k < t->n_in; k++) {
+        p->in[k] = slots_find(c, s, use, k, err);
+        if (p->in[k] < 0)
+            return err->code;
+        p->trial[k] = p->slope[k] = -1;
+        if (!shows)
+            TRY(slots_trial(c, s, &t->in[k], &p->trial[k], &p->slope[k], err));
     }
     for (uint32_t o = 0; o < t->n_out; o++) {
-        p->out[o] = find_basis(c, s, c->test, &c->n_test, &t->out[o], err);
-        if (p->out[o] < 0)
+        const int keeps = t->out[o].eval == PF_STATE;
+
+        p->out[o] = keeps   ? -1
+                    : shows ? slots_shown(c, s, &t->out[o], err)
+                            : slots_basis(c, s, c->test, &c->n_test, &t->out[o], err);
+        p->kept[o] = keeps ? slots_input(c, s, &t->out[o], NULL, NULL, err) : -1;
+        if (p->out[o] < 0 && p->kept[o] < 0)
             return err->code;
-        out += (size_t)term_components(t->out[o].shape, dim);
-        for (uint32_t k = 0; k < t->n_in; k++) {
-            jac += (size_t)(term_components(t->out[o].shape, dim) * term_components(t->in[k].shape, dim));
-            if (p->trial[k] >= 0 && (!t->depends || t->depends[o * t->n_in + k]))
-                c->block[p->out[o]][p->trial[k]] = 0;
-            if (p->slope[k] >= 0 && (!t->depends || t->depends[o * t->n_in + k]))
-                c->block[p->out[o]][p->slope[k]] = 0;
-        }
+        p->equations |= !keeps;
+        for (uint32_t k = 0; k < t->n_in && !keeps && !shows; k++)
+            if (!t->depends || t->depends[o * t->n_in + k])
+                couple(c, p, o, k, s->mesh->dim);
     }
-    c->out_size = max_size(c->out_size, out);
-    c->jac_size = max_size(c->jac_size, jac);
-    c->scratch_size = max_size(c->scratch_size, t->scratch_bytes);
-    c->room_size = max_size(c->room_size, term_jacobian_room(t, dim, PF_LANES) / sizeof(v8));
+    slots_sizes(c, t, s->mesh->dim);
     return 0;
 }
 
@@ -158,7 +113,7 @@ static int place_rules(assembly *a, assembly_class *c, const cut_rule *cut, erro
 
         if (c->where == PF_FACET) {
             TRY(fe_rule_facet(type, f, FACET_DEGREE, r, c->tangent[f], &c->orient[f], err));
-        } else if (c->where == PF_PAIR) {
+        } else if (c->where == PF_PAIR || c->where == PF_PARTICLE) {
             r->n = 1; /* any point of the cell: weight 1, and no field of the mesh */
         } else if (c->where == PF_SURFACE) {
             r->n = SURFACE_POINTS; /* where they are comes with the bodies */
@@ -210,22 +165,28 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
     const space *s = a->space;
 
     c->where = spec->where;
-    c->follows = spec->rule != NULL || spec->where == PF_PAIR || spec->where == PF_SURFACE || spec->where == PF_CUT;
-    c->serial = c->where == PF_FACET || c->where == PF_PAIR;
+    c->follows = spec->rule != NULL || spec->where == PF_PAIR || spec->where == PF_PARTICLE ||
+                 spec->where == PF_SURFACE || spec->where == PF_CUT;
+    c->serial = c->where == PF_FACET || c->where == PF_PAIR || c->where == PF_PARTICLE;
     for (int order = 0; order < 3; order++)
         c->n_basis[order] =
             fe_n_basis(s->mesh->type, order) * (c->where == PF_CUT || (c->where == PF_PAIR && order == 0) ? 2 : 1);
     memset(c->block, 0xff, sizeof c->block);
-    for (int i = 0; i < spec->n_use; i++) {
-        if (i == ASSEMBLE_MAX_USES)
+    for (int i = 0; i < 2 * spec->n_use; i++) { /* those with PF_LAST after all others */
+        term_use *use = spec->use[i % spec->n_use];
+
+        if (((use->term->flags & PF_LAST) != 0) != (i >= spec->n_use))
+            continue;
+        if (c->n_use == ASSEMBLE_MAX_USES)
             return error_set(err, ERR_PLUGIN, "more than %d terms act on the same points", ASSEMBLE_MAX_USES);
-        TRY(add_use(c, s, spec->use[i], err));
-        c->use[i].number = number_use(a, spec->use[i]);
+        TRY(add_use(c, s, use, err));
+        c->use[c->n_use - 1].number = number_use(a, use);
     }
     for (int t = 0; t < c->n_test; t++) {
         c->test[t].at = c->test_size;
         c->test_size += (size_t)c->test[t].n_comp;
-        c->serial |= s->field[c->test[t].field].support == PF_ON_PROBLEM; /* one row for all cells */
+        c->serial |= c->test[t].field >= 0 &&
+                     s->field[c->test[t].field].support == PF_ON_PROBLEM; /* one row for all cells */
         for (int r = 0; r < c->n_trial; r++)
             if (c->block[t][r] == 0) {
                 c->block[t][r] = c->block_size;
@@ -233,6 +194,8 @@ int plan_create(assembly *a, assembly_class *c, const assembly_spec *spec, error
             }
     }
     TRY(place_rules(a, c, spec->rule, err));
+    if (c->any_kept)
+        TRY(kept_place(a, c, err));
     TRY(layout_create(a, c, err));
     TRY(layout_tensor(a, c, err));
     if (c->follows)

@@ -22,7 +22,7 @@ static double output_power(const assembly_class *c, int64_t batch, const plan_us
     double total = 0;
 
     for (uint32_t o = 0; o < t->n_out; o++) {
-        const v8 *restrict x = w->unknown_of[p->out[o]], *restrict s = (const v8 *)out[o];
+        const v8 *restrict x = p->out[o] < 0 ? NULL : w->unknown_of[p->out[o]], *restrict s = (const v8 *)out[o];
         int div = t->out[o].eval == PF_DIV, n = div ? dim : term_components(t->out[o].shape, dim);
 
         for (int k = 0; x && k < n; k++) /* q div v is q I : grad v */
@@ -61,12 +61,12 @@ int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, c
         known &= moved[k] != NULL;
     }
     if (rates) {
-        TRY(t->residual(b, still, out));
+        TRY(inside_residual(c, p, b, still, out, w));
         rest = output_power(c, batch, p, (int)b->dim, (const double *const *)out, w);
         kinetic = NAN;
     }
     if (rates && known) {
-        TRY(t->residual(b, moved, out));
+        TRY(inside_residual(c, p, b, moved, out, w));
         kinetic = 0.5 * (output_power(c, batch, p, (int)b->dim, (const double *const *)out, w) - rest);
     }
     w->power[p->number][POWER_ALL] += factor * all;

@@ -42,6 +42,31 @@ int dense_solve(int n, double *a, double *b)
     return 0;
 }
 
+int dense_solve_symmetric(int n, double *a, int n_rhs, double *b)
+{
+    for (int j = 0; j < n; j++)
+        for (int i = j; i < n; i++) {
+            for (int k = 0; k < j; k++)
+                a[i * n + j] -= a[i * n + k] * a[j * n + k];
+            if (i == j && !(a[j * n + j] > 0))
+                return 1;
+            a[i * n + j] = i == j ? sqrt(a[j * n + j]) : a[i * n + j] / a[j * n + j];
+        }
+    for (int r = 0; r < n_rhs; r++, b += n) {
+        for (int i = 0; i < n; i++) {
+            for (int k = 0; k < i; k++)
+                b[i] -= a[i * n + k] * b[k];
+            b[i] /= a[i * n + i];
+        }
+        for (int i = n - 1; i >= 0; i--) {
+            for (int k = i + 1; k < n; k++)
+                b[i] -= a[k * n + i] * b[k];
+            b[i] /= a[i * n + i];
+        }
+    }
+    return 0;
+}
+
 int dense_invert(int n, double *a, error *err)
 {
     size_t size = (size_t)n * (size_t)n;

@@ -35,6 +35,10 @@ static inline double dense_inverse3(const double a[3][3], double inverse[3][3])
  * 0, or 1 if a is singular to the last bit or not finite (b is then worthless). */
 int dense_solve(int n, double *a, double *b);
 
+/* b[k] <- a^-1 b[k] for n_rhs right-hand sides b[n_rhs][n], a symmetric and positive definite (of it the lower half
+ * is read), by Cholesky's factors, which take its place.  0, or 1 if it is not. */
+int dense_solve_symmetric(int n, double *a, int n_rhs, double *b);
+
 /* a <- a^-1, a[n][n] of any size, by GSL's LU factors.  ERR_USAGE if it is singular, ERR_MEMORY. */
 int dense_invert(int n, double *a, error *err);
 

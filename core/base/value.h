@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * value.h -- a number or vector that a case gives: constant, or a function of x and t. */
+ * value.h -- a number, vector or tensor that a case gives: constant, or a function of x and t. */
 #ifndef BASE_VALUE_H
 #define BASE_VALUE_H
 
 #include "base/error.h"
 
-enum { VALUE_MAX = 3 };
+enum { VALUE_MAX = 9 };
 
 typedef struct value {
     int n;                      /* components                                         */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Which unknowns have an equation now.  A restricted field (PF_IN_PARTICLES: a multiplier) lives at the nodes i
- * that bodies really cover, int over the bodies of phi_i^2 > TAU int over the domain of phi_i^2 (numerics 4); a
- * field with equations in the fluid only lives on cells that have some.  The others are idle. */
+ * that bodies really cover, int over the bodies of phi_i^2 > TAU int over the domain of phi_i^2 (numerics 4); one
+ * that holds no other field, as the temperature of bodies, on all cells that bodies reach into; a field with
+ * equations in the fluid only on cells that have some.  The others are idle. */
 #include "body/body.h"
 
 #include <math.h>
@@ -72,7 +73,7 @@ static void restrict_fields(const bodies *b, placement *p)
     for (int f = 0; f < s->n_field; f++) {
         int holds = s->field[f].constrains ? space_find_field(s, s->field[f].constrains) : -1;
 
-        for (int64_t a = 0; is_restricted(s, f) && a < s->n_attached; a++)
+        for (int64_t a = 0; is_restricted(s, f) && s->field[f].constrains && a < s->n_attached; a++)
             for (int i = 0; i < s->mesh->type->n_node; i++) {
                 int32_t node = space_carrier(s, space_attached_group(s, a), i);
                 int64_t d = s->first[f][node], u = holds >= 0 ? s->first[holds][node] : -1;
@@ -80,6 +81,29 @@ static void restrict_fields(const bodies *b, placement *p)
                 for (int k = 0; d >= 0 && k < s->field[f].n_comp; k++)
                     p->idle[d + k] = !(b->inside[node] > TAU * b->whole[node]) || (u >= 0 && s->fixed[u + k]);
             }
+    }
+}
+
+static void set_idle(const space *s, placement *p, int f, int64_t attached, uint8_t idle)
+{
+    for (int i = 0; i < s->mesh->type->n_node; i++) {
+        int64_t d = s->first[f][space_carrier(s, space_attached_group(s, attached), i)];
+
+        for (int k = 0; d >= 0 && k < s->field[f].n_comp; k++)
+            p->idle[d + k] = idle;
+    }
+}
+
+/* Fields of the bodies' own: on at all nodes of cells that bodies reach into. */
+static void fill_bodies(const space *s, placement *p)
+{
+    for (int f = 0; f < s->n_field; f++) {
+        if (!is_restricted(s, f) || s->field[f].constrains)
+            continue;
+        for (int64_t a = 0; a < s->n_attached; a++)
+            set_idle(s, p, f, a, 1);
+        for (int64_t k = 0; k < p->n_covered; k++)
+            set_idle(s, p, f, p->covered[k], 0);
     }
 }
 
@@ -106,6 +130,7 @@ void active_set(const bodies *b, placement *p)
     if (b->whole) {
         inside_norms(b, p);
         restrict_fields(b, p);
+        fill_bodies(b->space, p);
     }
     if (b->any_fluid_only)
         leave_fluid(b, p);

@@ -15,24 +15,22 @@ static void find_fields(bodies *b)
 
     for (int i = 0; i < d->n_use; i++)
         for (uint32_t o = 0; o < d->use[i].term->n_out; o++) {
-            int f = space_find_field(b->space, d->use[i].term->out[o].field), where = d->use[i].where;
+            const pf_slot *s = &d->use[i].term->out[o];
+            int f = term_slot_field(s) ? space_find_field(b->space, s->field) : -1, where = d->use[i].where;
 
             if (f >= 0 && b->space->field[f].order > 0) {
                 in_fluid[f] |= where == PF_FLUID;
                 elsewhere[f] |= where == PF_CELL || where == PF_SOLID;
             }
         }
-    b->field_velocity = b->field_spin = -1;
+    for (int i = 0; i < d->n_use; i++)
+        b->is_curved |= d->use[i].where == PF_SURFACE && d->use[i].plugin->d.min_minor >= 4;
     for (int f = 0; f < b->space->n_field; f++) {
-        const field_spec *g = &b->space->field[f];
-
         b->fluid_only[f] = in_fluid[f] && !elsewhere[f];
         b->any_fluid_only |= b->fluid_only[f];
-        if (g->support == PF_ON_PARTICLE && g->shape == PF_VECTOR && b->field_velocity < 0)
-            b->field_velocity = f;
-        if (g->support == PF_ON_PARTICLE && g->shape == PF_SPIN && b->field_spin < 0)
-            b->field_spin = f;
     }
+    b->field_velocity = describe_motion(d, 0);
+    b->field_spin = describe_motion(d, 1);
 }
 
 static int cut_basis(bodies *b, error *err)
@@ -88,6 +86,15 @@ static int warn_resolution(const bodies *b, error *err)
     return 0;
 }
 
+/* Whether some term reads distances from walls. */
+static int wants_walls(const description *d)
+{
+    for (int i = 0; i < d->n_use; i++)
+        if (d->use[i].term->flags & PF_WALL_DISTANCE)
+            return 1;
+    return 0;
+}
+
 int bodies_create(bodies *b, const description *d, space *s, const cell_grid *grid, const conditions *c,
                   warning_list *w, error *err)
 {
@@ -103,9 +110,10 @@ int bodies_create(bodies *b, const description *d, space *s, const cell_grid *gr
     b->conditions = c;
     b->warnings = w;
     if (b->n == 0)
-        return 0;
+        return wants_walls(d) ? pairs_find_walls(b, err) : 0;
     find_fields(b);
     b->has_surface = describe_has(d, PF_SURFACE);
+    b->shows_surface = describe_shows(d, PF_SURFACE);
     b->has_ties = describe_has(d, PF_CUT);
     b->has_pairs = describe_has(d, PF_PAIR);
     for (int64_t e = 0; e < s->mesh->n_cell; e++)

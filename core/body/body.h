@@ -35,9 +35,11 @@ typedef struct surface_list {
     int64_t n, room;
     int n_last;  /* points of the last, unfinished piece */
     int32_t now; /* attached pair that is being cut      */
+    const solid *curved; /* its body, where some term may read the curvature of the surface; NULL: none does */
     int failed;  /* memory ran out                       */
     int32_t *attached;
-    double (*ref)[SURFACE_POINTS][3], (*normal)[SURFACE_POINTS][3], (*weight)[SURFACE_POINTS];
+    double (*ref)[SURFACE_POINTS][3], (*normal)[SURFACE_POINTS][3], (*weight)[SURFACE_POINTS],
+        (*curvature)[SURFACE_POINTS];
 } surface_list;
 
 /* Bad cells (too little fluid) and the roots that they are tied to. */
@@ -124,6 +126,7 @@ typedef struct bodies {
     space *space;
     warning_list *warnings;
     int field_velocity, field_spin; /* of the bodies, or -1 */
+    int shows_surface;              /* some term whose results are shown acts on surfaces */
     int has_surface, has_ties, has_pairs, any_fluid_only;
     int fluid_only[SPACE_MAX_FIELDS]; /* fields with equations in the fluid only */
     const cell_grid *grid;
@@ -135,6 +138,8 @@ typedef struct bodies {
     double image[27][3];    /* their shifts; the first is zero */
     double h_mean;          /* of the cells */
     double pair_range;      /* gap up to which some term acts on pairs */
+    double pair_size, h_most; /* largest size of a body and of a cell, m */
+    int is_curved;            /* some term may read the curvature of surfaces */
     int has_walls;
     wall walls;  /* boundaries where a vector field of the mesh is prescribed */
     int n_plane; /* symmetry planes */
@@ -263,6 +268,8 @@ typedef struct wall_gap {
 } wall_gap;
 
 int pairs_create(bodies *b, error *err);
+/* b->walls, if there are any. */
+int pairs_find_walls(bodies *b, error *err);
 /* Walls with a gap to the body below range; list has room for PAIRS_MOST_WALLS. */
 int pairs_walls(const bodies *b, const solid *q, double range, wall_gap *list, int *n, error *err);
 /* Distance from y to the nearest image of x, and the unit vector n along it. */
@@ -282,6 +289,7 @@ const moving_body *paths_below(const body_paths *t, const double *x);
 /* Lists which bodies may matter where, for a reach of at most this. */
 void paths_list(body_paths *t, int dim, double reach);
 int paths_at(void *bodies_, int64_t cell, const double *x, double *w, double *history); /* see moving_frame */
+int paths_before(void *bodies_, int64_t cell, const double *x, int outside, located *then);
 void placements_destroy(bodies *b);
 
 #endif

@@ -58,8 +58,9 @@ static int cut_body(const bodies *b, placement *p, int k, int64_t *a, error *err
         if (!envelope_near(b, p, *a, 0))
             continue;
         surface_begin(&p->surface, (int32_t)*a);
+        p->surface.curved = b->is_curved ? &here : NULL;
         TRY(cut_cell(&b->cut, s->mesh, s->attached_cell[*a], &here, p->covered_weight + p->n_covered * b->cut.n,
-                     b->has_surface ? surface_add : NULL, &p->surface, &cover, err));
+                     b->has_surface || b->shows_surface ? surface_add : NULL, &p->surface, &cover, err));
         surface_end(&p->surface);
         if (cover != CUT_NONE) {
             p->covers_all[p->n_covered] = cover == CUT_WHOLE;

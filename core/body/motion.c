@@ -48,6 +48,19 @@ int bodies_prescribe(const bodies *b, double t, double *x, error *err)
     return 0;
 }
 
+/* Another field of body k at the start: what the body says, or initial{} at its centre; else 0. */
+static int start_field(const bodies *b, int f, int k, double t, double *to, error *err)
+{
+    const description *d = b->description;
+    double v[VALUE_MAX] = {0};
+
+    if (d->has_initial[f])
+        TRY(value_at(&d->initial[f], b->spec[k].start.x, t, v, err));
+    memcpy(to, b->spec[k].has_field >> f & 1 ? b->spec[k].field + 3 * f : v,
+           (size_t)b->space->field[f].n_comp * sizeof *to);
+    return 0;
+}
+
 int bodies_start(const bodies *b, double t, double *x, error *err)
 {
     for (int k = 0; k < b->n; k++)
@@ -57,6 +70,10 @@ int bodies_start(const bodies *b, double t, double *x, error *err)
             if (first >= 0)
                 TRY(value_at(spin ? &b->spec[k].spin : &b->spec[k].velocity, (double[3]){0}, t, x + first, err));
         }
+    for (int f = 0; f < b->space->n_field; f++)
+        for (int k = 0; b->space->field[f].support == PF_ON_PARTICLE && k < b->n; k++)
+            if (f != b->field_velocity && f != b->field_spin)
+                TRY(start_field(b, f, k, t, x + b->space->first[f][space_body_carrier(b->space, k)], err));
     return 0;
 }
 

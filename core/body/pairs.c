@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* Boundaries where a vector field is prescribed are walls. */
-static int find_walls(bodies *b, error *err)
+int pairs_find_walls(bodies *b, error *err)
 {
     const description *d = b->description;
     const mesh *m = b->space->mesh;
@@ -35,31 +35,41 @@ static int find_walls(bodies *b, error *err)
 int pairs_create(bodies *b, error *err)
 {
     const description *d = b->description;
-    double size = 0, h = 0;
+    const int dim = b->space->mesh->dim;
+    double low[3], high[3], across = 0;
 
     for (int k = 0; k < b->n; k++)
-        size = fmax(size, 2 * b->spec[k].shape.radius);
+        b->pair_size = fmax(b->pair_size, 2 * b->spec[k].shape.radius);
     for (int64_t e = 0; e < b->space->mesh->n_cell; e++)
-        h = fmax(h, b->space->mesh->h[e]);
+        b->h_most = fmax(b->h_most, b->space->mesh->h[e]);
     for (int i = 0; i < d->n_use; i++) {
         const pf_term *t = d->use[i].term;
 
         if (d->use[i].where == PF_PAIR)
-            b->pair_range = fmax(b->pair_range, t->reach ? t->reach(d->use[i].params, size, h) : size);
+            b->pair_range =
+                fmax(b->pair_range, t->reach ? t->reach(d->use[i].params, b->pair_size, b->h_most) : b->pair_size);
     }
-    return find_walls(b, err);
+    describe_bounds(b->space->mesh, low, high); /* nothing is further apart than its diagonal */
+    for (int k = 0; k < dim; k++)
+        across += (high[k] - low[k]) * (high[k] - low[k]);
+    b->pair_range = fmin(b->pair_range, 2 * sqrt(across));
+    return pairs_find_walls(b, err);
 }
 
-/* Size of the cell at a place, or of the fallback where there is none. */
-static double size_at(const bodies *b, const double *x, int64_t fallback)
+/* The cell at the middle of a gap, or the fallback where there is none, and its size. */
+static void find_cell(const bodies *b, near_pair *n, int64_t fallback)
 {
     const mesh *m = b->space->mesh;
-    double at[3] = {x[0], x[1], x[2]};
+    double at[3] = {n->at[0], n->at[1], n->at[2]};
     located l;
 
     mesh_wrap(m, at);
     l = locate_point(m, b->grid, at);
-    return l.cell >= 0 ? m->h[l.cell] : fallback >= 0 ? m->h[fallback] : b->h_mean;
+    if (l.cell < 0 && fallback >= 0 && locate_in_cell(m, fallback, at, l.xi) >= 0)
+        l.cell = (int32_t)fallback;
+    n->cell = l.cell;
+    memcpy(n->ref, l.xi, sizeof n->ref);
+    n->h = l.cell >= 0 ? m->h[l.cell] : fallback >= 0 ? m->h[fallback] : b->h_mean;
 }
 
 /* Distance from y to the nearest image of x, and the unit vector along it. */
@@ -101,7 +111,7 @@ int pairs_link(bodies *b, const pose *at, double drift, error *err)
 
 /* The pair of bodies i and j (-1: a wall, before this cell) of a link, at this gap and normal. */
 static int add_pair(const bodies *b, placement *p, int64_t link, int i, int j, int64_t cell, double gap,
-                    const double *normal, int64_t *room, error *err)
+                    double distance, const double *normal, int64_t *room, error *err)
 {
     const solid *q = &p->body[i];
     near_pair *n;
@@ -109,7 +119,7 @@ static int add_pair(const bodies *b, placement *p, int64_t link, int i, int j, i
 
     LIST_ROOM(p->pair, p->n_pair, room, err);
     n = &p->pair[p->n_pair++];
-    *n = (near_pair){.group = space_link_group(b->space, link), .particle = i, .gap = gap};
+    *n = (near_pair){.group = space_link_group(b->space, link), .particle = i, .other = j, .gap = gap};
     n->size[0] = 2 * q->shape->radius;
     n->density[0] = b->spec[i].density;
     n->size[1] = j >= 0 ? 2 * b->spec[j].shape.radius : INFINITY;
@@ -120,8 +130,9 @@ static int add_pair(const bodies *b, placement *p, int64_t link, int i, int j, i
     for (int k = 0; k < b->space->mesh->dim; k++) {
         n->normal[k] = normal[k];
         n->at[k] = q->at.x[k] - reach * normal[k];
+        n->other_centre[k] = j >= 0 ? q->at.x[k] - distance * normal[k] : 0;
     }
-    n->h = size_at(b, n->at, cell);
+    find_cell(b, n, cell);
     return 0;
 }
 
@@ -158,17 +169,17 @@ int pairs_find(const bodies *b, placement *p, error *err)
 
         TRY(pairs_walls(b, &p->body[k], b->pair_range, wall, &n, err));
         for (int i = 0; i < n; i++)
-            TRY(add_pair(b, p, k, k, -1, wall[i].cell, wall[i].gap, wall[i].normal, &room, err));
+            TRY(add_pair(b, p, k, k, -1, wall[i].cell, wall[i].gap, 0, wall[i].normal, &room, err));
     }
     for (int64_t l = b->n; l < s->n_link; l++) {
         int i = s->link[l][0], j = s->link[l][1];
-        double n[3] = {0}, back[3], gap = pairs_separation(b, p->body[i].at.x, p->body[j].at.x, n);
+        double n[3] = {0}, back[3], apart = pairs_separation(b, p->body[i].at.x, p->body[j].at.x, n), gap = apart;
 
         for (int k = 0; k < 3; k++)
             back[k] = -n[k];
         gap -= solid_support(&p->body[i], back) + solid_support(&p->body[j], n);
         if (gap < b->pair_range)
-            TRY(add_pair(b, p, l, i, j, -1, gap, n, &room, err));
+            TRY(add_pair(b, p, l, i, j, -1, gap, apart, n, &room, err));
     }
     return 0;
 }

@@ -182,6 +182,26 @@ int paths_at(void *bodies_, int64_t cell, const double *x, double *w, double *hi
     return 1;
 }
 
+int paths_before(void *bodies_, int64_t cell, const double *x, int outside, located *then)
+{
+    const bodies *p = bodies_;
+    const body_paths *t = &p->paths;
+    double way[PATHS_MAX_LEVELS][3], off[PATHS_MAX_LEVELS][3] = {{0}}, h = p->space->mesh->h[cell], part;
+    const moving_body *below;
+    located foot[PATHS_MAX_LEVELS];
+
+    if (!t->cell[cell] || !paths_find(t, x, PATHS_REACH * h, way))
+        return 0;
+    part = locate_path(p, x, way, foot);
+    if (part == 0)
+        return 0;
+    below = outside ? paths_below(t, x) : NULL;
+    if (below)
+        continue_fluid(p, below, x, h, part, way, foot, off);
+    *then = foot[0];
+    return 1;
+}
+
 uint32_t bodies_rated(const bodies *b)
 {
     const description *d = b->description;
@@ -241,6 +261,7 @@ int paths_create(bodies *b, error *err)
     b->paths.frame.cell = b->paths.cell;
     b->paths.frame.ctx = b;
     b->paths.frame.at = paths_at;
+    b->paths.frame.before = paths_before;
     for (int k = 0; k < b->n; k++) /* Lua has one thread */
         b->paths.frame.one_thread |= b->spec[k].shape.kind == SHAPE_DISTANCE;
     return 0;
@@ -282,7 +303,7 @@ const moving_frame *bodies_paths(bodies *b, const placement *now, int levels, co
     body_paths *t = &b->paths;
     int any;
 
-    if (!t->frame.fields)
+    if (!t->frame.fields && b->space->kept.n == 0)
         return NULL;
     any = paths_take(b, now, levels, c, u, then);
     t->frame.stamp++;

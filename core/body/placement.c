@@ -16,6 +16,7 @@ static void placement_destroy(placement *p)
     free(p->surface.ref);
     free(p->surface.normal);
     free(p->surface.weight);
+    free(p->surface.curvature);
     free(p->tie.cell);
     free(p->tie.group);
     free(p->tie.weight);
@@ -36,6 +37,8 @@ static body_points view(const bodies *b, const placement *p)
                      .off = p->cover,
                      .n_pair = p->n_pair,
                      .pair = p->pair,
+                     .pair_size = b->pair_size,
+                     .pair_h = b->h_most,
                      .n_solid = p->n_covered,
                      .n_cut = p->n_cut,
                      .solid = p->covered,
@@ -47,6 +50,7 @@ static body_points view(const bodies *b, const placement *p)
                      .surface_ref = (const double(*)[3])p->surface.ref,
                      .surface_normal = (const double(*)[3])p->surface.normal,
                      .surface_weight = (const double *)p->surface.weight,
+                     .curvature = b->is_curved ? (const double *)p->surface.curvature : NULL,
                      .n_tie = p->tie.n,
                      .tie = p->tie.group,
                      .tie_cell = p->tie.cell,

@@ -111,6 +111,8 @@ int reader_choice(reader *r, const char *key, const char *doc, const char *const
 int reader_vector(reader *r, const char *key, const char *doc, int n, double *v);
 /* A number or function (n = 1), a vector of numbers, functions and `free`, or one function. */
 int reader_value(reader *r, const char *key, const char *doc, int n, int dim, value *v);
+/* A function of place (and time) that returns true or false, or a number: v is 1, 0 or that number. */
+int reader_condition(reader *r, const char *key, const char *doc, int dim, value *v);
 /* At most `most` strings in a list; more are wrong. */
 int reader_strings(reader *r, const char *key, const char *doc, int most, const char **v, int *n);
 /* Leaves the value of the key on the Lua stack if it is a table (then 1) -- pop it. */
@@ -134,5 +136,7 @@ const char *case_alias(const char *other, const char *const *valid, int n, const
 
 /* A Lua function or number on top of the stack as a value; pops it. */
 int case_value(case_file *c, const case_block *b, const char *key, int n, int dim, value *v);
+/* The same of a function that may return true or false. */
+int case_condition(case_file *c, const case_block *b, const char *key, int dim, value *v);
 
 #endif

@@ -235,6 +235,11 @@ int reader_value(reader *r, const char *key, const char *doc, int n, int dim, va
     return case_value(r->c, r->b, key, n, dim, v);
 }
 
+int reader_condition(reader *r, const char *key, const char *doc, int dim, value *v)
+{
+    return ask(r, key, doc) ? case_condition(r->c, r->b, key, dim, v) : 0;
+}
+
 int reader_strings(reader *r, const char *key, const char *doc, int most, const char **v, int *n)
 {
     lua_State *l = r->c->lua;

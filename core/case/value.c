@@ -14,6 +14,7 @@ typedef struct lua_value {
     const case_block *b;
     const char *key;
     int n, dim, whole; /* whole: one function returns all components */
+    int truth;         /* the function may return true or false: 1 or 0 */
     int ref[VALUE_MAX];
     double constant[VALUE_MAX];
 } lua_value;
@@ -42,8 +43,8 @@ static int call(const lua_value *v, int ref, int n, const double *x, double t, d
             lua_rawgeti(l, base + 1, k + 1);
         else
             lua_pushvalue(l, base + 1 + k);
-        out[k] = lua_tonumber(l, -1);
-        if (lua_type(l, -1) != LUA_TNUMBER || !isfinite(out[k]))
+        out[k] = v->truth && lua_isboolean(l, -1) ? lua_toboolean(l, -1) : lua_tonumber(l, -1);
+        if ((lua_type(l, -1) != LUA_TNUMBER && !(v->truth && lua_isboolean(l, -1))) || !isfinite(out[k]))
             status = error_set(err, ERR_CASE, "it must return %d number%s, result %d is %s", n, n > 1 ? "s" : "",
                                k + 1, lua_type(l, -1) == LUA_TNUMBER ? "not finite" : luaL_typename(l, -1));
         lua_pop(l, 1);
@@ -79,7 +80,15 @@ static int bad_number(lua_State *l, int n)
     return 0;
 }
 
-static int expected(case_file *c, const case_block *b, const char *key, int n)
+/* In which order the components of a tensor stand; of a vector nobody asks. */
+static const char *order_of(int n, int dim)
+{
+    if (dim == 2)
+        return n == 3 ? " {xx, xy, yy}" : n == 4 ? " {xx, xy, yx, yy}" : "";
+    return n == 6 ? " {xx, xy, xz, yy, yz, zz}" : n == 9 ? " {xx, xy, xz, yx, yy, yz, zx, zy, zz}" : "";
+}
+
+static int expected(case_file *c, const case_block *b, const char *key, int n, int dim)
 {
     lua_State *l = c->lua;
     int bad = bad_number(l, n);
@@ -91,10 +100,10 @@ static int expected(case_file *c, const case_block *b, const char *key, int n)
         case_wrong(c, b, key, "%s: \"%s\": component %d is not a finite number", b->kind, key, bad);
     else
         case_wrong(c, b, key,
-                   "%s: \"%s\": expected %d components in braces (numbers, functions or free) or a function that "
+                   "%s: \"%s\": expected %d components%s in braces (numbers, functions or free) or a function that "
                    "returns %d "
                    "numbers, got %s%s",
-                   b->kind, key, n, n, luaL_typename(l, -1),
+                   b->kind, key, n, order_of(n, dim), n, luaL_typename(l, -1),
                    lua_istable(l, -1) && (int)lua_rawlen(l, -1) != n ? " of another length" : "");
     lua_pop(l, 1);
     return -1;
@@ -131,19 +140,29 @@ static int component(lua_State *l, lua_value *v, value *out, int k)
     return 1;
 }
 
-int case_value(case_file *c, const case_block *b, const char *key, int n, int dim, value *out)
+/* The value on top of the stack, with nothing read of it; NULL: no memory, and it is popped. */
+static lua_value *make(case_file *c, const case_block *b, const char *key, int n, int dim, value *out)
 {
-    lua_State *l = c->lua;
     lua_value *v = arena_alloc(&c->memory, 1, sizeof *v);
     const char *name = v ? arena_strdup(&c->memory, key) : NULL;
 
     if (!name) {
         c->no_memory = 1;
-        lua_pop(l, 1);
-        return -1;
+        lua_pop(c->lua, 1);
+        return NULL;
     }
     *v = (lua_value){.c = c, .b = b, .key = name, .n = n, .dim = dim};
     *out = (value){.n = n, .ctx = v};
+    return v;
+}
+
+int case_value(case_file *c, const case_block *b, const char *key, int n, int dim, value *out)
+{
+    lua_State *l = c->lua;
+    lua_value *v = make(c, b, key, n, dim, out);
+
+    if (!v)
+        return -1;
     if (lua_isfunction(l, -1)) {
         v->whole = 1;
         note_function(l, dim, out);
@@ -153,17 +172,39 @@ int case_value(case_file *c, const case_block *b, const char *key, int n, int di
     if (n == 1) {
         lua_pushvalue(l, -1);
         if (!component(l, v, out, 0))
-            return expected(c, b, key, n);
+            return expected(c, b, key, n, dim);
         lua_pop(l, 1);
         return 1;
     }
     if (!lua_istable(l, -1) || (int)lua_rawlen(l, -1) != n)
-        return expected(c, b, key, n);
+        return expected(c, b, key, n, dim);
     for (int k = 0; k < n; k++) {
         lua_rawgeti(l, -1, k + 1);
         if (!component(l, v, out, k))
-            return expected(c, b, key, n);
+            return expected(c, b, key, n, dim);
     }
     lua_pop(l, 1);
+    return 1;
+}
+
+int case_condition(case_file *c, const case_block *b, const char *key, int dim, value *out)
+{
+    lua_State *l = c->lua;
+    lua_value *v;
+
+    if (!lua_isfunction(l, -1)) {
+        case_wrong(c, b, key,
+                   "%s \"%s\": \"%s\": expected a function of place that says true or false, as in %s = "
+                   "function(x, y%s) return x < 0.5 end, got %s",
+                   b->kind, b->name ? b->name : "", key, key, dim == 3 ? ", z" : "", luaL_typename(l, -1));
+        lua_pop(l, 1);
+        return -1;
+    }
+    v = make(c, b, key, 1, dim, out);
+    if (!v)
+        return -1;
+    v->whole = v->truth = 1;
+    note_function(l, dim, out);
+    v->ref[0] = luaL_ref(l, LUA_REGISTRYINDEX);
     return 1;
 }

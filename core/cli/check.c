@@ -22,9 +22,13 @@ static void print_conditions(const problem *p)
 
         printf("  %s (%s, %s): prescribed on", g->name, g->doc, g->unit);
         for (int i = 0; i < p->description.n_line; i++)
-            if (p->description.line[i].has_value[f] || (p->description.line[i].symmetry && g->n_comp > 1)) {
+            if (p->description.line[i].has_value[f] ||
+                (p->description.line[i].symmetry && g->n_comp > 1 &&
+                 (g->shape == PF_VECTOR || term_is_tensor((uint32_t)g->shape)))) {
                 printf(" \"%s\"%s", p->description.line[i].name,
-                       p->description.line[i].has_value[f] ? "" : " (normal component)");
+                       p->description.line[i].has_value[f] ? ""
+                       : g->shape == PF_VECTOR             ? " (normal component)"
+                                                           : " (components of the normal with others)");
                 any = 1;
             }
         printf("%s\n", any ? "" : " no boundary");
@@ -53,6 +57,7 @@ static void print_solver(const linear *l)
 
 static int check(const problem *p, const linear *l, int json)
 {
+    char replaced[400];
     double matrix = 8.0 * (double)p->space.row[p->space.n_free] + 4.0 * (double)p->space.n_col;
 
     if (json) {
@@ -70,9 +75,16 @@ static int check(const problem *p, const linear *l, int json)
     for (int i = 0; i < p->mesh.n_name; i++)
         printf(" %s", p->mesh.name[i]);
     printf("\n  terms:");
-    for (int i = 0; i < p->description.n_use; i++)
-        printf(" %s.%s", p->description.use[i].plugin->d.name, p->description.use[i].term->name);
+    for (int i = 0; i < p->description.n_use; i++) {
+        const term_use *u = &p->description.use[i];
+
+        printf(u->label ? " %s.%s (%s)" : " %s.%s", u->plugin->d.name, u->term->name, u->label);
+    }
     printf("\n");
+    for (int i = 0; i < p->description.n_replaced; i++) {
+        describe_tell_replaced(&p->description, i, replaced, sizeof replaced);
+        printf("    %s\n", replaced);
+    }
     print_conditions(p);
     printf("  unknowns: %lld, of which %lld are free; matrix: %lld entries, %.3g MB\n", (long long)p->space.n_dof,
            (long long)p->space.n_free, (long long)p->space.row[p->space.n_free], matrix / 1e6);
@@ -97,6 +109,7 @@ int cli_check(const cli *o, error *err)
                             .x = k->p.state.x,
                             .dot = k->p.system.step,
                             .old = k->p.state.x,
+                            .kept = k->p.state.kept,
                             .bodies = problem_points(&k->p)};
 
         s.shift = time->unsteady ? 1.5 / time->step : 0;

@@ -22,6 +22,8 @@ typedef struct cli {
     const char *field, *component, *slice;
     int width, arrows;
     double low, high;
+    /* new */
+    const char *fields, *on, *weak;
 } cli;
 
 int cli_run(const cli *c, error *err);
@@ -31,6 +33,8 @@ int cli_describe(const cli *c, error *err);
 int cli_test(const cli *c, error *err);
 int cli_jacobian(const cli *c, error *err);
 int cli_picture(const cli *c, error *err);
+int cli_new(const cli *c, error *err);
+int cli_build(const cli *c, error *err);
 
 /* --- shared by the commands (main.c, signals.c) --- */
 

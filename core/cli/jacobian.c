@@ -28,6 +28,7 @@ static int compare(problem *p, double shift, double *x, const double *old, doubl
                              .x = x,
                              .dot = sys->step,
                              .old = old,
+                             .kept = p->state.kept,
                              .bodies = problem_points(p)};
 
         for (int64_t i = 0; i < s->n_dof; i++)
@@ -80,6 +81,7 @@ static int all_pairs(problem *p, error *err)
                                        .x = x,
                                        .dot = sys->step,
                                        .old = old,
+                                       .kept = p->state.kept,
                                        .bodies = problem_points(p)},
                      sys->residual, sys->linear.value, 1, err));
     for (int g = 0; g < s->n_field; g++) {

@@ -24,6 +24,8 @@ static const struct command {
     {"describe", "[TERM]", "weak form, parameters, slots, citation", cli_describe, 0, 1},
     {"test", "PLUGIN|TERM|FILE.so", "every block of a plugin in isolation; --case CASE: of a case", cli_test, 0, 1},
     {"jacobian", "CASE", "derivatives on the real problem, per pair of blocks", cli_jacobian, 1, 1},
+    {"new", "NAME", "a folder with a new plugin that runs: --fields, --on, --weak FORM", cli_new, 1, 1},
+    {"build", "DIR|FILE.c", "compile a plugin", cli_build, 1, 1},
     {"picture", "DIR", "a field of a finished run as PNG or SVG", cli_picture, 1, 1},
 };
 
@@ -38,6 +40,7 @@ static const char options_text[] =
     "  --json               machine-readable summary on stdout (run, check, test)\n"
     "  --quiet              only warnings and errors on stderr\n"
     "  picture: --field NAME --component x|y|z|magnitude --range LOW,HIGH --slice z=0.5 --width PIXELS --arrows\n"
+    "  new: --on cells|fluid|solid|facets|surface|bodies|pairs --fields u,T,NAME:scalar|vector:ORDER --weak FORM\n"
     "exit codes: 0 ok, 2 usage, 3 case, 4 mesh, 5 plugin, 6 did not converge, 7 input/output, 8 memory, 128+n "
     "signal\n";
 
@@ -111,6 +114,12 @@ static int parse_option(int argc, char **argv, int *i, cli *c, error *err)
         c->component = v;
     } else if ((v = option(argc, argv, i, "--slice", &bad))) {
         c->slice = v;
+    } else if ((v = option(argc, argv, i, "--fields", &bad))) {
+        c->fields = v;
+    } else if ((v = option(argc, argv, i, "--on", &bad))) {
+        c->on = v;
+    } else if ((v = option(argc, argv, i, "--weak", &bad))) {
+        c->weak = v;
     } else if ((v = option(argc, argv, i, "--width", &bad))) {
         if (!bad)
             TRY(number_option("--width", v, 1, &x, err));

@@ -117,7 +117,7 @@ static int print_plugin(const term_plugin *p, const char *only, error *err)
     printf("%s %s: %s (%s)\n", p->d.name, p->d.version, p->d.doc ? p->d.doc : "", p->d.license);
     for (uint32_t i = 0; i < p->d.n_field; i++)
         printf("  field %s: %s, %s, %s of order %u%s%s\n", p->d.field[i].name, p->d.field[i].doc,
-               p->d.field[i].unit, p->d.field[i].shape == PF_VECTOR ? "vector" : "scalar", p->d.field[i].order,
+               p->d.field[i].unit, term_shape_name(p->d.field[i].shape), p->d.field[i].order,
                p->d.field[i].reaction ? "; reaction on boundaries: " : "",
                p->d.field[i].reaction ? p->d.field[i].reaction : "");
     for (uint32_t i = 0; i < p->d.n_term; i++)

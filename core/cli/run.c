@@ -56,6 +56,8 @@ static void default_dir(const char *path, char *dir, size_t n)
 
 static void introduce(const problem *p)
 {
+    char replaced[400];
+
     fprintf(stderr, "%s\n  %lld cells (%s), %lld unknowns (",
             p->description.c->title ? p->description.c->title : p->description.c->path, (long long)p->mesh.n_cell,
             p->mesh.type->name, (long long)p->space.n_dof);
@@ -63,6 +65,10 @@ static void introduce(const problem *p)
         fprintf(stderr, "%s%s", f ? ", " : "", p->space.field[f].name);
     fprintf(stderr, "), %d thread%s; set up in %.2g s\n", p->n_thread, p->n_thread > 1 ? "s" : "",
             p->setup_seconds);
+    for (int i = 0; i < p->description.n_replaced; i++) {
+        describe_tell_replaced(&p->description, i, replaced, sizeof replaced);
+        fprintf(stderr, "  %s\n", replaced);
+    }
 }
 
 static void conclude(const run_result *q, const char *dir)

@@ -144,9 +144,10 @@ int describe_bodies(description *d, error *err)
 {
     const case_block *b;
 
+    TRY(describe_body_keys(d, err));
     for (int k = 0; (b = case_find(d->c, "particle", k)); k++)
         TRY(read_one(d, b, err));
     for (int k = 0; (b = case_find(d->c, "particles", k)); k++)
         TRY(place_many(d, b, err));
-    return 0;
+    return describe_hand_out_keys(d, err);
 }

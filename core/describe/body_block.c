@@ -128,5 +128,6 @@ int describe_body(description *d, reader *r, body_spec *q, error *err)
     read_turn(d, r, q);
     read_motion(d, r, q);
     reader_required(r, "density", status);
+    TRY(describe_body_extras(d, r, q, err));
     return read_shape(d, r, q, err);
 }

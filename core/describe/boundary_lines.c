@@ -155,12 +155,14 @@ static void check_conflicts(const description *d, const char *what, const bounda
 {
     check_fluxes(d, what, l);
     for (int f = 0; l->symmetry && f < d->fields.n; f++)
-        if (l->has_value[f] && d->fields.f[f].shape == PF_VECTOR)
+        if (l->has_value[f] &&
+            (d->fields.f[f].shape == PF_VECTOR || term_is_tensor((uint32_t)d->fields.f[f].shape)))
             case_wrong(
                 d->c, l->block, d->fields.f[f].name,
-                "%s: \"%s\" is given beside symmetry = true, which prescribes its normal component as zero and "
-                "leaves the others",
-                what, d->fields.f[f].name);
+                "%s: \"%s\" is given beside symmetry = true, which prescribes its %s as zero and leaves the others",
+                what, d->fields.f[f].name,
+                d->fields.f[f].shape == PF_VECTOR ? "normal component"
+                                                  : "components of the normal with other directions");
     for (int f = 0; l->natural && f < d->fields.n; f++)
         if (l->has_value[f] || l->n_flux || l->symmetry) {
             case_wrong(d->c, l->block, "natural",

@@ -19,9 +19,14 @@ static int find_name(const description *d, const case_block *b, const char *key,
     for (int i = 0; i < n; i++)
         text_add(&t, "%s%s", i ? ", " : "", list[i]);
     case_wrong(d->c, b, key, "%s: no boundary is called \"%s\"%s; the mesh has: %s%s",
-               key ? "output: forces" : "boundary", name, text_hint(text_nearest(name, list, (size_t)n)).s,
+               !key                    ? "boundary"
+               : strcmp(key, "forces") ? "output: integrals"
+                                       : "output: forces",
+               name, text_hint(text_nearest(name, list, (size_t)n)).s,
                t.s ? t.s : "no named boundary (in Gmsh a physical group names one)",
-               key && d->n_body ? " (forces on bodies are in particles.csv without being asked for)" : "");
+               key && d->n_body && strcmp(key, "forces") == 0
+                   ? " (forces on bodies are in particles.csv without being asked for)"
+                   : "");
     text_free(&t);
     return -1;
 }
@@ -96,6 +101,8 @@ static void check_names(const description *d, const char *const *list, int n)
         for (int k = 0; k < d->n_line; k++)
             if (i != k && d->line[i].periodic[0] && (bit[i] & bit[k]) && (!d->line[k].periodic[0] || k > i))
                 say_periodic(d, &d->line[i], &d->line[k], bit[i] & bit[k], list, n);
+    for (int i = 0; i < d->output.n_integral; i++)
+        find_name(d, d->output.block, "integrals", d->output.integral[i], list, n);
     for (int f = 0; f < d->output.n_force; f++) {
         int b = find_name(d, d->output.block, "forces", d->output.force[f], list, n);
 
@@ -194,7 +201,7 @@ void describe_bounds(const mesh *m, double *low, double *high)
         }
 }
 
-int describe_check(const description *d, const mesh *m, error *err)
+int describe_check(description *d, const mesh *m, error *err)
 {
     const char *const *list = (const char *const *)m->name;
     uint64_t named = 0, bare = 0;
@@ -222,7 +229,8 @@ int describe_check(const description *d, const mesh *m, error *err)
         say_bare(d, n_bare, bare, list, m->n_name, t.s ? t.s : "");
         text_free(&t);
     }
-    return case_finish(d->c, err);
+    TRY(case_finish(d->c, err));
+    return describe_start(d, err);
 }
 
 void describe_facets(const description *d, const mesh *m, int line, uint8_t *facet)

@@ -158,9 +158,10 @@ static void check_level(const description *d)
             "nothing determines \"%s\" (%s): it is prescribed on no boundary, and a steady case does not start "
             "from anything; prescribe it on some boundary, as in boundary \"left\" { %s = %s }, or add time {}",
             g->name, g->doc, g->name,
-            g->n_comp == 1   ? "0"
-            : g->n_comp == 2 ? "{1, 0}"
-                             : "{1, 0, 0}");
+            term_is_tensor((uint32_t)g->shape) ? "function(x, y) ... end"
+            : g->n_comp == 1                   ? "0"
+            : g->n_comp == 2                   ? "{1, 0}"
+                                               : "{1, 0, 0}");
     }
 }
 
@@ -177,6 +178,8 @@ static void check_shared(const description *d)
             memcpy(&a, (const char *)d->use[i].params + q->offset, sizeof a);
             for (int j = 0; j < i && !other; j++) {
                 other = describe_param(&d->use[j], q->name);
+                if (d->use[i].inside && d->use[j].inside) /* each has its own part of the domain */
+                    other = NULL;
                 if (!other || other->type != PF_T_REAL || !(other->flags & PF_SHARED))
                     continue;
                 memcpy(&b, (const char *)d->use[j].params + other->offset, sizeof b);

@@ -14,13 +14,16 @@ int describe(description *d, case_file *c, registry *r, warning_list *w, error *
     if (d->dim == 0)
         d->dim = 2; /* the mesh block is wrong and said so; go on to find what else is */
     TRY(describe_terms(d, r, err));
+    describe_properties(d, r);
     TRY(describe_boundaries(d, err));
     TRY(describe_bodies(d, err));
     describe_settings(d);
-    TRY(describe_output(d, err));
+    TRY(describe_shown(d, err));
+    TRY(describe_output(d, r, err));
     describe_check_formulation(d);
     describe_check_box(d);
     describe_check_terms(d);
+    describe_check_kept(d);
     return 0;
 }
 
@@ -34,6 +37,7 @@ int describe_has(const description *d, int where)
 
 void describe_destroy(description *d)
 {
+    describe_end(d);
     arena_free(&d->memory);
     memset(d, 0, sizeof *d);
 }

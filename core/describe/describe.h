@@ -19,7 +19,8 @@ enum {
     DESCRIBE_MAX_PROBES = 64,
     DESCRIBE_MAX_CONTINUED = 16,
     DESCRIBE_MAX_ITERATIONS = 50,
-    DESCRIBE_MAX_PLANES = 64
+    DESCRIBE_MAX_PLANES = 64,
+    DESCRIBE_MAX_KEYS = 32
 };
 
 /* A symmetry plane: x_axis = at. */
@@ -51,6 +52,15 @@ typedef struct boundary_line {
     value flux_value[DESCRIBE_MAX_TERMS];
 } boundary_line;
 
+/* A key of particle{} that terms ask for (PF_BODY_KEY). */
+typedef struct body_key {
+    const char *name, *unit, *doc;
+    const term_use *use; /* the first that has it */
+    int n_comp, vector;
+    double dflt, min, max;
+    double *value; /* [n_body][n_comp] */
+} body_key;
+
 enum body_motion { BODY_FREE, BODY_FIXED, BODY_PRESCRIBED };
 
 /* particle {}, or one of particles {}. */
@@ -61,6 +71,9 @@ typedef struct body_spec {
     int motion;     /* enum body_motion */
     pose start;
     value velocity, spin; /* at the start, of the surface (fixed), or prescribed: functions of t */
+    double *key;          /* [n_key][3] of the description's keys */
+    uint32_t has_field;   /* bit f: the body says how its field f starts, */
+    double *field;        /* [TERM_MAX_FIELDS][3] and this is it */
     int held[6];          /* components of velocity (3) and spin (3; 2D: the last) held          */
 } body_spec;
 
@@ -94,8 +107,11 @@ typedef struct output_spec {
     int n_probe, n_line, n_force;
     probe_spec probe[DESCRIBE_MAX_PROBES];
     line_spec line[DESCRIBE_MAX_PROBES];
-    const char *force[MESH_MAX_NAMES]; /* boundaries whose reactions are wanted */
-    double about[3];                   /* point that torques refer to           */
+    const char *force[MESH_MAX_NAMES];   /* boundaries whose reactions are wanted */
+    double about[3];                     /* point that torques refer to           */
+    int n_shown, shown[TERM_MAX_FIELDS]; /* fields of shown_fields to write      */
+    int n_integral;                      /* boundaries whose integrals are wanted; -1: all that have a name */
+    const char *integral[MESH_MAX_NAMES];
 } output_spec;
 
 /* solve {}. */
@@ -117,6 +133,13 @@ typedef struct term_list {
     const case_block *block[DESCRIBE_MAX_TERMS];
 } term_list;
 
+/* A term that is left out as another one takes its place. */
+typedef struct replacement {
+    const term_plugin *plugin, *by_plugin;
+    const pf_term *term, *by;
+    int line; /* of the other one */
+} replacement;
+
 typedef struct description {
     case_file *c;           /* for messages, and for results{} */
     warning_list *warnings; /* what is doubtful but no error   */
@@ -127,11 +150,21 @@ typedef struct description {
     term_use use[DESCRIBE_MAX_TERMS];                /* terms that are on and give equations */
     const case_block *use_block[DESCRIBE_MAX_TERMS]; /* lines that switch them on */
     term_list law, shown;                            /* those that publish properties; that give what is shown */
-    field_list fields;                               /* their unknowns    */
-    int n_line, boundary_unread;                     /* some line is so wrong that its boundaries are unknown */
+    field_list shown_fields;                         /* what those show as fields, called like their slots */
+    int n_started; /* of all these: the first so many have been made ready (pf_term.init) */
+    int n_replaced;
+    replacement replaced[DESCRIBE_MAX_TERMS];
+    field_list fields;           /* their unknowns    */
+    int n_line, boundary_unread; /* some line is so wrong that its boundaries are unknown */
     boundary_line *line;
     int n_body;
     body_spec *body;
+    field_list kept; /* memory of terms, and what it starts from */
+    value kept_initial[TERM_MAX_FIELDS];
+    int has_kept[TERM_MAX_FIELDS];
+    int n_key;
+    body_key key[DESCRIBE_MAX_KEYS];
+    reader *reading; /* the block of a body that is being read */
     value initial[TERM_MAX_FIELDS], exact[TERM_MAX_FIELDS];
     value offset[TERM_MAX_FIELDS]; /* added to what is written, not to what is solved */
     int has_initial[TERM_MAX_FIELDS], has_exact[TERM_MAX_FIELDS], has_offset[TERM_MAX_FIELDS];
@@ -144,8 +177,12 @@ typedef struct description {
 /* Reads all of a case.  What is wrong with it is collected (case_finish); an error is of a plugin or of memory. */
 int describe(description *d, case_file *c, registry *r, warning_list *w, error *err);
 /* What can be checked only with the mesh: names of boundaries in boundary{} and output{} (of a box: earlier),
- * facets without a condition, probes and lines.  ERR_CASE. */
-int describe_check(const description *d, const mesh *m, error *err);
+ * facets without a condition, probes and lines.  ERR_CASE.  If all is well, terms make ready for a run
+ * (pf_term.init); that ends with describe_end or with the description. */
+int describe_check(description *d, const mesh *m, error *err);
+void describe_end(description *d);
+/* "plugin.term is left out: ...", for i < n_replaced. */
+void describe_tell_replaced(const description *d, int i, char *to, size_t n);
 /* facet[n_facet]: 1 where the facet belongs to a boundary line. */
 void describe_facets(const description *d, const mesh *m, int line, uint8_t *facet);
 /* Planes of the boundaries with symmetry = true, each once. */
@@ -156,8 +193,12 @@ void describe_destroy(description *d);
 
 /* Whether a term of the case acts on such points (enum pf_where). */
 int describe_has(const description *d, int where);
+/* Whether a term whose results are shown does. */
+int describe_shows(const description *d, int where);
 /* Whether the mesh is a box that nothing bends, so that its sides are known before it is made. */
 int describe_is_box(const description *d);
+/* The field that is the bodies' velocity, or angular velocity (spin = 1); -1: none. */
+int describe_motion(const description *d, int spin);
 /* Whether bodies move in time. */
 int describe_moves(const description *d);
 
@@ -165,10 +206,16 @@ int describe_moves(const description *d);
 
 int describe_mesh(description *d, error *err);
 int describe_terms(description *d, registry *r, error *err);
+/* Who publishes the properties that terms take. */
+void describe_properties(description *d, registry *r);
 int describe_boundaries(description *d, error *err);
 int describe_bodies(description *d, error *err);
 void describe_settings(description *d);
-int describe_output(description *d, error *err);
+/* "plugin.term" of a plugin that can be found which shows a field of this name, or NULL. */
+const char *describe_who_shows(registry *r, const char *name);
+/* What the shown terms show, before output{}. */
+int describe_shown(description *d, error *err);
+int describe_output(description *d, registry *r, error *err);
 /* Numbers that terms need, and fields that nothing determines. */
 void describe_check_terms(const description *d);
 /* Bodies and the terms that move them and couple them with the flow. */
@@ -188,8 +235,25 @@ int describe_corners(reader *r, const char *key, const char *doc, double *low, d
 /* Adds a warning with file and line. */
 void describe_warn(description *d, const case_block *b, const char *key, const char *fmt, ...)
     __attribute__((format(printf, 4, 5)));
+/* Keys of a line about all its terms (instances.c). */
+int describe_instance(description *d, reader *own, const value **inside, const char **label, error *err);
+/* 0: another line has the term on, too, and says so. */
+int describe_check_twice(description *d, const reader *own, const term_use *u);
+/* Marks the terms that others replace; takes them out. */
+void describe_replace(description *d, registry *r);
+/* surfaces.c: marks terms at surfaces of bodies that the case has no use for. */
+void describe_surfaces(description *d);
+void describe_leave_out(description *d);
+/* Memory of the terms that are on (kept.c). */
+int describe_kept(description *d, error *err);
+void describe_initial_kept(description *d, reader *r);
+void describe_check_kept(const description *d);
+/* pf_term.init of all terms.  ERR_CASE. */
+int describe_start(description *d, error *err);
 /* Parameters and data of a term that is on, from its line and from fluid{}. */
 int describe_term_keys(description *d, reader *own, reader *fluid, term_use *u, error *err);
+/* Says that a parameter which a term on this line has to have is not there. */
+void describe_missing(description *d, const case_block *own, const pf_param *q);
 /* Keys on a line that belong to another term of its plugin, and in fluid{} that belong on a line. */
 void describe_off_keys(description *d, reader *own, const term_plugin *plugin);
 void describe_unshared_keys(description *d, reader *fluid);
@@ -198,6 +262,14 @@ const pf_param *describe_param(const term_use *u, const char *name);
 /* 1 if a term on cells has the field among its unknowns and its test functions (off the diagonal a prescribed value
  * would take the place of another balance). */
 int describe_field_is_balanced(const description *d, int f);
+/* A key that no term has asked for in this block, but another term or block has it. */
+void describe_misplaced(description *d, reader *r, const char *key, const char *fmt, ...)
+    __attribute__((format(printf, 4, 5)));
+/* Which keys bodies have by terms; those of a body, and how its fields start; then, with all bodies, to the terms.
+ */
+int describe_body_keys(description *d, error *err);
+int describe_body_extras(description *d, reader *r, body_spec *q, error *err);
+int describe_hand_out_keys(description *d, error *err);
 /* Everything of a body but its place. */
 int describe_body(description *d, reader *r, body_spec *q, error *err);
 /* The shape that disk{}, sphere{} ... left on top of the Lua stack; pops it. */

@@ -11,29 +11,36 @@
 #include <string.h>
 
 /* A field that cannot be written, with what can. */
-static void no_field(description *d, reader *r, const char *wrong)
+static void no_field(description *d, registry *plugins, reader *r, const char *wrong)
 {
-    const char *name[TERM_MAX_FIELDS];
+    const char *name[2 * TERM_MAX_FIELDS], *term = describe_who_shows(plugins, wrong);
     int n = 0, f = fields_find(&d->fields, wrong);
     text list = {0};
 
-    for (int i = 0; i < d->fields.n; i++)
-        if (d->fields.f[i].support == PF_ON_MESH) {
-            name[n++] = d->fields.f[i].name;
-            text_add(&list, "%s%s (%s)", n > 1 ? ", " : "", d->fields.f[i].name, d->fields.f[i].doc);
+    for (int i = 0; i < d->fields.n + d->shown_fields.n; i++) {
+        const field_spec *g = i < d->fields.n ? &d->fields.f[i] : &d->shown_fields.f[i - d->fields.n];
+
+        if (g->support == PF_ON_MESH) {
+            name[n++] = g->name;
+            text_add(&list, "%s%s (%s)", n > 1 ? ", " : "", g->name, g->doc);
         }
+    }
     if (f >= 0 && d->fields.f[f].support == PF_ON_PARTICLE)
         case_wrong(
             d->c, r->b, "fields",
             "output: fields: \"%s\" (%s) is in particles.csv without being asked for; fields of the mesh: %s",
             wrong, d->fields.f[f].doc, list.s ? list.s : "none");
+    else if (term)
+        case_wrong(d->c, r->b, "fields",
+                   "output: there is no field \"%s\"; the line term \"%s\" {} shows it; without that there are: %s",
+                   wrong, term, list.s ? list.s : "none");
     else if (!d->incomplete)
         case_wrong(d->c, r->b, "fields", "output: there is no field \"%s\"%s; there are: %s", wrong,
                    text_hint(text_nearest(wrong, name, (size_t)n)).s, list.s ? list.s : "none");
     text_free(&list);
 }
 
-static void read_fields(description *d, reader *r)
+static void read_fields(description *d, registry *plugins, reader *r)
 {
     output_spec *o = &d->output;
     const char *list[TERM_MAX_FIELDS];
@@ -42,8 +49,10 @@ static void read_fields(description *d, reader *r)
     for (int f = 0; status <= 0 && f < d->fields.n; f++)
         if (d->fields.f[f].support == PF_ON_MESH)
             o->field[o->n_field++] = f;
+    for (int f = 0; status <= 0 && f < d->shown_fields.n; f++)
+        o->shown[o->n_shown++] = f;
     for (int i = 0; status > 0 && i < n; i++) {
-        int f = fields_find(&d->fields, list[i]), twice = 0;
+        int f = fields_find(&d->fields, list[i]), shown = fields_find(&d->shown_fields, list[i]), twice = 0;
 
         for (int k = 0; k < i; k++)
             twice |= strcmp(list[k], list[i]) == 0;
@@ -51,8 +60,10 @@ static void read_fields(description *d, reader *r)
             case_wrong(d->c, r->b, "fields", "output: fields: \"%s\" stands there twice", list[i]);
         else if (f >= 0 && d->fields.f[f].support == PF_ON_MESH)
             o->field[o->n_field++] = f;
+        else if (shown >= 0)
+            o->shown[o->n_shown++] = shown;
         else
-            no_field(d, r, list[i]);
+            no_field(d, plugins, r, list[i]);
     }
 }
 
@@ -212,7 +223,25 @@ static void read_every(description *d, reader *r)
                    o->tables_every, length / o->tables_every);
 }
 
-int describe_output(description *d, error *err)
+/* Boundaries whose integrals are wanted: those that stand there, else all. */
+static void read_integrals(description *d, reader *r)
+{
+    output_spec *o = &d->output;
+    int n = 0, status = reader_strings(r, "integrals", "boundaries whose integrals are wanted, else all",
+                                       MESH_MAX_NAMES, o->integral, &n);
+
+    o->n_integral = status > 0 ? n : -1;
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < i; k++)
+            if (o->integral[i] && o->integral[k] && strcmp(o->integral[i], o->integral[k]) == 0)
+                case_wrong(d->c, r->b, "integrals", "output: integrals: \"%s\" stands there twice", o->integral[i]);
+    if (status > 0 && !describe_shows(d, PF_FACET) && !d->incomplete)
+        case_wrong(d->c, r->b, "integrals",
+                   "output: integrals: no term of the case gives an integral over boundaries; term "
+                   "\"show.flow_rate\" {} is one that does");
+}
+
+int describe_output(description *d, registry *plugins, error *err)
 {
     output_spec *o = &d->output;
     int n = 0;
@@ -221,7 +250,8 @@ int describe_output(description *d, error *err)
     o->block = case_find(d->c, "output", 0);
     reader_open(&r, d->c, o->block, "output");
     read_every(d, &r);
-    read_fields(d, &r);
+    read_fields(d, plugins, &r);
+    read_integrals(d, &r);
     TRY(read_probes(d, &r, err));
     TRY(read_lines(d, &r, err));
     reader_strings(&r, "forces", "boundaries whose force (and other reactions) is wanted", MESH_MAX_NAMES, o->force,

@@ -29,11 +29,15 @@ static void read_fields(description *d, const char *kind, value *v, int *has)
     reader_open(&r, d->c, case_find(d->c, kind, 0), kind);
     r.noun = "field";
     for (int f = 0; f < d->fields.n; f++)
-        if (d->fields.f[f].support != PF_ON_PARTICLE)
+        if (d->fields.f[f].support != PF_ON_PARTICLE ||
+            (v == d->initial && f != describe_motion(d, 0) && f != describe_motion(d, 1)))
             has[f] = describe_value(&r, d->fields.f[f].name, d->fields.f[f].doc, d->fields.f[f].n_comp, d->dim,
                                     &v[f]) > 0;
+    if (v == d->initial)
+        describe_initial_kept(d, &r);
     for (int f = 0; f < d->fields.n; f++)
-        if (d->fields.f[f].support == PF_ON_PARTICLE && reader_has(&r, d->fields.f[f].name))
+        if (d->fields.f[f].support == PF_ON_PARTICLE && !has[f] && reader_has(&r, d->fields.f[f].name) &&
+            !reader_asked(&r, d->fields.f[f].name))
             refuse_of_bodies(d, &r, &d->fields.f[f]);
     if (!d->incomplete)
         reader_close(&r);
@@ -128,9 +132,10 @@ static void continue_in(description *d, const case_block *b, const char *name, d
     solve_spec *c = &d->solve;
     int found = 0;
 
-    for (int i = 0; i < d->n_use; i++) {
-        const pf_param *q = describe_param(&d->use[i], name);
-        double *at = q ? (double *)(void *)((char *)d->use[i].params + q->offset) : NULL;
+    for (int i = 0; i < d->n_use + d->law.n; i++) {
+        const term_use *u = i < d->n_use ? &d->use[i] : &d->law.use[i - d->n_use];
+        const pf_param *q = describe_param(u, name);
+        double *at = q ? (double *)(void *)((char *)u->params + q->offset) : NULL;
 
         if (!q || q->type != PF_T_REAL || c->n_continued == DESCRIBE_MAX_CONTINUED)
             continue;

@@ -48,6 +48,19 @@ static int read_param(reader *r, const pf_param *q, int dim, void *params, int *
     return 0;
 }
 
+void describe_missing(description *d, const case_block *own, const pf_param *q)
+{
+    const case_block *fluid = case_find(d->c, "fluid", 0);
+
+    if (q->flags & PF_SHARED)
+        case_wrong(d->c, fluid ? fluid : own, NULL,
+                   "term \"%s\" needs \"%s\" (%s, %s): give it in fluid { %s = ... }", own->name, q->name, q->doc,
+                   q->unit, q->name);
+    else
+        case_wrong(d->c, own, NULL, "term \"%s\": \"%s\" is missing (%s%s%s)", own->name, q->name, q->doc,
+                   strcmp(q->unit, "1") ? ", " : "", strcmp(q->unit, "1") ? q->unit : "");
+}
+
 static int read_params(description *d, reader *own, reader *fluid, term_use *u, error *err)
 {
     for (uint32_t i = 0; i < u->term->n_param; i++) {
@@ -58,14 +71,14 @@ static int read_params(description *d, reader *own, reader *fluid, term_use *u, 
             TRY(read_param(fluid, q, d->dim, u->params, &status, err));
         if (reader_has(own, q->name) || !status) /* the term's own line has the last word */
             TRY(read_param(own, q, d->dim, u->params, &status, err));
+        u->given |= status ? 1u << i : 0;
         if (status || !(q->flags & PF_REQUIRED))
             continue;
-        if (!(q->flags & PF_SHARED))
-            reader_required(own, q->name, status);
-        else if (!reader_misspelt(fluid, q->name) && !reader_misspelt(own, q->name))
-            case_wrong(d->c, fluid->b ? fluid->b : own->b, NULL,
-                       "%s needs \"%s\" (%s, %s): give it in fluid { %s = ... }", own->what, q->name, q->doc,
-                       q->unit, q->name);
+        if (reader_misspelt(fluid, q->name) || reader_misspelt(own, q->name))
+            continue;
+        if (!term_takes(u->term, q->name))
+            describe_missing(d, own->b, q);
+        u->missing |= 1u << i; /* unless it is published: describe_properties */
     }
     return 0;
 }
@@ -93,10 +106,7 @@ int describe_term_keys(description *d, reader *own, reader *fluid, term_use *u, 
     return read_data(d, own, u, err);
 }
 
-/* A key that no term has asked for here, but another term, or another line, has it. */
-static void misplaced(description *d, reader *r, const char *key, const char *fmt, ...)
-    __attribute__((format(printf, 4, 5)));
-static void misplaced(description *d, reader *r, const char *key, const char *fmt, ...)
+void describe_misplaced(description *d, reader *r, const char *key, const char *fmt, ...)
 {
     char why[400];
     va_list ap;
@@ -119,13 +129,13 @@ void describe_off_keys(description *d, reader *own, const term_plugin *plugin)
 
         for (uint32_t k = 0; k < t->n_in; k++)
             if (t->in[k].eval == PF_DATA && (t->flags & PF_BY_BOUNDARY))
-                misplaced(d, own, t->in[k].name, "(%s.%s) is a key of boundary \"...\" {}", name, t->name);
+                describe_misplaced(d, own, t->in[k].name, "(%s.%s) is a key of boundary \"...\" {}", name, t->name);
             else if (t->in[k].eval == PF_DATA)
-                misplaced(d, own, t->in[k].name,
+                describe_misplaced(d, own, t->in[k].name,
                           "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name, t->name,
                           name, t->name);
         for (uint32_t k = 0; k < t->n_param; k++)
-            misplaced(d, own, t->param[k].name,
+            describe_misplaced(d, own, t->param[k].name,
                       "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name, t->name, name,
                       t->name);
     }
@@ -139,11 +149,11 @@ void describe_unshared_keys(description *d, reader *fluid)
 
         for (uint32_t k = 0; k < t->n_in; k++)
             if (t->in[k].eval == PF_DATA && (t->flags & PF_BY_BOUNDARY))
-                misplaced(d, fluid, t->in[k].name, "is a key of boundary \"...\" {}");
+                describe_misplaced(d, fluid, t->in[k].name, "is a key of boundary \"...\" {}");
             else if (t->in[k].eval == PF_DATA)
-                misplaced(d, fluid, t->in[k].name, "is a key of the line term \"%s\" {}", line);
+                describe_misplaced(d, fluid, t->in[k].name, "is a key of the line term \"%s\" {}", line);
         for (uint32_t k = 0; k < t->n_param; k++)
-            misplaced(d, fluid, t->param[k].name, "is a key of the line term \"%s\" {}", line);
+            describe_misplaced(d, fluid, t->param[k].name, "is a key of the line term \"%s\" {}", line);
     }
 }
 

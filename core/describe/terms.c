@@ -104,6 +104,8 @@ typedef struct line_options {
     const char *without[32];
     int n_without;
     int how, over; /* enum term_derivative; 1: in the fluid only */
+    const value *inside;
+    const char *label;
 } line_options;
 
 static void read_options(description *d, reader *own, const term_plugin *plugin, int single, line_options *o)
@@ -115,6 +117,17 @@ static void read_options(description *d, reader *own, const term_plugin *plugin,
     reader_choice(own, "jacobian", "how the derivatives are computed", derivative_name, &o->how);
     reader_choice(own, "over", "part of the domain: all of it, or outside of the bodies (fluid)", over_name,
                   &o->over);
+}
+
+/* Terms that make sense in 2D, or in 3D, alone. */
+static void check_dimension(description *d, const reader *own, const term_plugin *plugin, const pf_term *t)
+{
+    const int only = t->flags & PF_ONLY_2D ? 2 : t->flags & PF_ONLY_3D ? 3 : d->dim;
+
+    if (only != d->dim)
+        case_wrong(d->c, own->b, NULL,
+                   "%s: %s.%s is for cases in %dD, and this one is in %dD; leave it out, or take a mesh in %dD",
+                   own->what, plugin->d.name, t->name, only, d->dim, only);
 }
 
 /* Switches on the terms of a line: the one that it names, or all but optional ones and those left out. */
@@ -130,6 +143,7 @@ static int switch_on(description *d, reader *own, const term_plugin *plugin, con
                    : (t->flags & PF_OPTIONAL) || is_listed(t->name, o->without, o->n_without))
             continue;
         found = 1;
+        check_dimension(d, own, plugin, t);
         TRY(add_use(d, own->b, plugin, t, mine, err));
         if (!term_has_derivative(t, (enum term_derivative)o->how))
             case_wrong(
@@ -138,6 +152,12 @@ static int switch_on(description *d, reader *own, const term_plugin *plugin, con
                 "best there is)",
                 own->what, derivative_name[o->how], plugin->d.name, t->name);
         mine->use[mine->n - 1]->how = (enum term_derivative)o->how;
+        mine->use[mine->n - 1]->inside = o->inside;
+        mine->use[mine->n - 1]->label = o->label;
+        if (o->inside && term_kind(t) == TERM_PUBLISHES)
+            case_wrong(d->c, own->b, "inside",
+                       "%s: %s.%s publishes a property, which is needed everywhere: leave \"inside\" out",
+                       own->what, plugin->d.name, t->name);
         if (o->over && t->where == PF_CELL)
             mine->use[mine->n - 1]->where = PF_FLUID;
     }
@@ -147,22 +167,6 @@ static int switch_on(description *d, reader *own, const term_plugin *plugin, con
     else if (!found)
         case_wrong(d->c, own->b, "without", "%s: no term is left; leave the line out instead", own->what);
     return 0;
-}
-
-/* The line that switches a term on, other than the one read now; NULL: there is none. */
-static const case_block *line_of(const description *d, const pf_term *t, const case_block *but)
-{
-    for (int i = 0; i < d->n_use; i++)
-        if (d->use[i].term == t && d->use_block[i] != but)
-            return d->use_block[i];
-    for (int k = 0; k < 2; k++) {
-        const term_list *l = k ? &d->law : &d->shown;
-
-        for (int i = 0; i < l->n; i++)
-            if (l->use[i].term == t && l->block[i] != but)
-                return l->block[i];
-    }
-    return NULL;
 }
 
 /* What the terms of a line say about their parameters, and whether one is on already. */
@@ -175,25 +179,24 @@ static void check_line(description *d, const reader *own, const line_terms *mine
         if (u->term->check && u->term->check(u->params, why, sizeof why))
             case_wrong(d->c, own->b, NULL, "%s: %s", own->what, why);
     }
-    for (int i = 0; i < mine->n; i++) {
-        const case_block *other = line_of(d, mine->use[i]->term, own->b);
-
-        if (other) {
-            case_wrong(d->c, own->b, NULL, "%s: %s.%s is on already, by line %d", own->what,
-                       mine->use[i]->plugin->d.name, mine->use[i]->term->name, other->line);
+    for (int i = 0; i < mine->n; i++)
+        if (!describe_check_twice(d, own, mine->use[i]))
             return;
-        }
-    }
 }
 
-static int read_term(description *d, registry *r, const case_block *b, reader *fluid, int outside, error *err)
+/* A line whose terms are known, and whose keys are to be read. */
+typedef struct term_line {
+    const term_plugin *plugin; /* NULL: there is none */
+    reader own;
+    line_terms mine;
+} term_line;
+
+static int read_term(description *d, registry *r, const case_block *b, int outside, term_line *line, error *err)
 {
     const term_plugin *plugin;
     const char *dot = strchr(b->name, '.'), *single = dot ? dot + 1 : NULL;
     char name[128], *what;
     line_options o = {.over = outside};
-    line_terms mine = {0};
-    reader own;
 
     snprintf(name, sizeof name, "%.*s", dot ? (int)(dot - b->name) : (int)strlen(b->name), b->name);
     TRY(find_plugin(d, r, b, name, sizeof name, &plugin, err));
@@ -201,14 +204,27 @@ static int read_term(description *d, registry *r, const case_block *b, reader *f
         return 0;
     ARENA_NEW(&d->memory, what, strlen(b->name) + 10, err);
     sprintf(what, "term \"%s\"", b->name);
-    reader_open(&own, d->c, b, what);
-    read_options(d, &own, plugin, single != NULL, &o);
-    TRY(switch_on(d, &own, plugin, single, &o, &mine, err));
-    for (int i = 0; i < mine.n; i++)
-        TRY(describe_term_keys(d, &own, fluid, mine.use[i], err));
-    describe_off_keys(d, &own, plugin);
-    reader_close(&own);
-    check_line(d, &own, &mine);
+    reader_open(&line->own, d->c, b, what);
+    read_options(d, &line->own, plugin, single != NULL, &o);
+    TRY(describe_instance(d, &line->own, &o.inside, &o.label, err));
+    TRY(switch_on(d, &line->own, plugin, single, &o, &line->mine, err));
+    line->plugin = plugin;
+    return 0;
+}
+
+/* The keys of a line, but for terms that others replace. */
+static int read_keys(description *d, reader *fluid, term_line *line, error *err)
+{
+    line_terms on = {0};
+
+    for (int i = 0; i < line->mine.n; i++)
+        if (!line->mine.use[i]->replaced)
+            on.use[on.n++] = line->mine.use[i];
+    for (int i = 0; i < on.n; i++)
+        TRY(describe_term_keys(d, &line->own, fluid, on.use[i], err));
+    describe_off_keys(d, &line->own, line->plugin);
+    reader_close(&line->own);
+    check_line(d, &line->own, &on);
     return 0;
 }
 
@@ -297,9 +313,14 @@ int describe_terms(description *d, registry *r, error *err)
 {
     static const char *const regions[] = {"everywhere", "outside", NULL};
     const case_block *b;
-    int outside = 0;
+    term_line *line;
+    int outside = 0, n = 0;
     reader fluid;
 
+    while (case_find(d->c, "term", n))
+        n++;
+    ARENA_NEW(&d->memory, line, n + 1, err);
+    n = 0;
     reader_open(&fluid, d->c, case_find(d->c, "fluid", 0), "fluid");
     reader_choice(&fluid, "region", "where the terms on cells act: everywhere, or outside of the bodies", regions,
                   &outside);
@@ -314,9 +335,16 @@ int describe_terms(description *d, registry *r, error *err)
             d->incomplete = 1;
             continue;
         }
-        TRY(read_term(d, r, b, &fluid, outside, err));
+        TRY(read_term(d, r, b, outside, &line[n], err));
+        n += line[n].plugin != NULL;
     }
+    describe_replace(d, r);
+    describe_surfaces(d);
+    for (int k = 0; k < n; k++)
+        TRY(read_keys(d, &fluid, &line[k], err));
+    describe_leave_out(d);
     describe_unshared_keys(d, &fluid);
+    TRY(describe_kept(d, err));
     TRY(collect_fields(d, r, err));
     if (!d->incomplete)
         reader_close(&fluid);

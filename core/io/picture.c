@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * From a file and options to a figure: which field and plane, the labels, and the bytes,
- * which are made in memory and written at once. */
+ * From a file and options to a figure: which plane, the labels, and the bytes, which are made in memory and written
+ * at once. */
 #include "io/picture.h"
 #include "base/text.h"
 #include "io/file.h"
@@ -14,60 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static int field_unknown(const vtu_file *v, const char *name, error *err)
-{
-    const char *names[VTU_MAX_FIELDS];
-    text list = {0};
-    int status;
-
-    for (int i = 0; i < v->n_field; i++) {
-        names[i] = v->field[i].name;
-        text_add(&list, "%s%s", i ? ", " : "", names[i]);
-    }
-    status = error_set(err, ERR_USAGE, "no field \"%s\"%s; there are: %s", name,
-                       text_hint(text_nearest(name, names, (size_t)v->n_field)).s, list.s ? list.s : "none");
-    text_free(&list);
-    return status;
-}
-
-/* The first field with the name (NULL: any) and as many components (0: any). */
-static const vtu_array *field_find(const vtu_file *v, const char *name, int components)
-{
-    for (int i = 0; i < v->n_field; i++)
-        if ((!name || !strcmp(v->field[i].name, name)) && (!components || v->field[i].components == components))
-            return v->field + i;
-    return NULL;
-}
-
-static int choose_field(const vtu_file *v, const picture_options *o, picture_field *f, error *err)
-{
-    static const char *const component[4] = {"x", "y", "z", "magnitude"};
-
-    if (!v->n_field)
-        return error_set(err, ERR_IO, "there are no fields of 1 or 3 components");
-    f->colour = field_find(v, o->field, o->field ? 0 : 3);
-    if (!f->colour && o->field)
-        return field_unknown(v, o->field, err);
-    if (!f->colour)
-        f->colour = v->field;
-    f->component = 3;
-    if (o->component)
-        for (f->component = 0; f->component < 4 && strcmp(o->component, component[f->component]);)
-            f->component++;
-    if (f->component > 3)
-        return error_set(err, ERR_USAGE, "component '%s' is none of x, y, z and magnitude", o->component);
-    if (f->component < 3 && f->colour->components == 1)
-        return error_set(err, ERR_USAGE, "'%s' is a scalar and has no component %s", f->colour->name, o->component);
-    if (f->component == 2 && v->dim == 2)
-        return error_set(err, ERR_USAGE, "'%s' has no component z in two dimensions", f->colour->name);
-    f->arrow = f->colour->components == 3 ? f->colour : field_find(v, NULL, 3);
-    if (o->lines && !f->arrow)
-        return error_set(err, ERR_USAGE, "there is no vector field to draw arrows of");
-    if (!o->lines)
-        f->arrow = NULL;
-    return 0;
-}
 
 /* The plane; a plane in the domain's own end face is moved inwards by what nobody sees. */
 static int choose_view(const vtu_file *v, const picture_options *o, picture_view *view, error *err)
@@ -178,14 +124,14 @@ static int keep(text *t, char *s, size_t size, error *err)
 
 static int label_bar(const picture_field *f, picture_text *labels, error *err)
 {
-    const char *bar = f->component == 3 && f->colour->components == 3 ? "|" : "";
+    const char *bar = f->component == PICTURE_MAGNITUDE && f->colour->components > 1 ? "|" : "";
     text t = {0};
 
     text_add(&t, "%s", bar);
     add_plain(&t, f->colour->name);
     text_add(&t, "%s", bar);
-    if (f->component < 3)
-        text_add(&t, STROKE_SUB "%c" STROKE_LINE, 'x' + f->component);
+    if (f->component < PICTURE_MAGNITUDE)
+        text_add(&t, STROKE_SUB "%s" STROKE_LINE, picture_component(f));
     add_unit(&t, f->colour->unit);
     return keep(&t, labels->bar, sizeof labels->bar, err);
 }
@@ -350,7 +296,7 @@ static int draw_file(const vtu_file *v, const char *vtu_path, const char *title,
     arena a = {0};
     int status;
 
-    TRY(choose_field(v, o, &f, err));
+    TRY(picture_choose(v, o, &f, err));
     TRY(choose_view(v, o, &view, err));
     TRY(label_bar(&f, &labels, err));
     TRY(label_axes(v, &view, &labels, err));

@@ -9,7 +9,7 @@
 
 typedef struct picture_options {
     const char *field;     /* name of a field; NULL: the first vector, else the first           */
-    const char *component; /* of a vector: "x", "y", "z" or "magnitude"; NULL: the magnitude    */
+    const char *component; /* of a vector "x", "y", "z", of a tensor "xx", "xy", ...; or "magnitude", as NULL */
     int width;             /* pixels, 200..10000, 0: 1200; a tall domain's figure is narrower   */
     double low, high;      /* values at the ends of the colours; low >= high: from the data     */
     char slice_axis;       /* 3D: the plane's normal 'x', 'y' or 'z'; 0: 'z'                    */

@@ -18,7 +18,8 @@
 typedef struct fit {
     size_t node;
     double n, x[3], xx[3][3];
-    double f[3], fx[3][3], low[3], high[3]; /* per component */
+    double f[PICTURE_MAGNITUDE], fx[PICTURE_MAGNITUDE][3], low[PICTURE_MAGNITUDE],
+        high[PICTURE_MAGNITUDE]; /* per component */
 } fit;
 
 typedef struct extension {

@@ -8,6 +8,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "io/colour_map.h"
+#include "io/picture.h"
 #include "io/vtp.h"
 #include "io/vtu_read.h"
 
@@ -33,11 +34,17 @@ typedef struct picture_point {
 
 enum { PATCH_MAX_2D = 48, PATCH_MAX_3D = 12, PATCH_MAX_POINTS = 2401 };
 
-/* What is drawn: component 0..2 of the field, or 3 for the magnitude (of a scalar: itself). */
+enum { PICTURE_MAGNITUDE = 9 }; /* more than any component */
+
+/* What is drawn: a component of the field, or the magnitude (of a scalar: itself). */
 typedef struct picture_field {
     const vtu_array *colour, *arrow; /* arrow: NULL for none */
     int component;
 } picture_field;
+
+/* picture_choose.c -- fills f from the options; "x", "xy": what is drawn, of the magnitude "". */
+int picture_choose(const vtu_file *v, const picture_options *o, picture_field *f, error *err);
+const char *picture_component(const picture_field *f);
 
 typedef struct picture_patch {
     int n;                                 /* pieces along an edge                                                */

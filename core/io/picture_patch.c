@@ -48,7 +48,7 @@ int patch_body(const vtu_file *v, size_t c)
 
 typedef struct nodes {
     const fe_cell *cell;
-    double x[FE_MAX_NODES][3], colour[FE_MAX_NODES][3], arrow[FE_MAX_NODES][3];
+    double x[FE_MAX_NODES][3], colour[FE_MAX_NODES][PICTURE_MAGNITUDE], arrow[FE_MAX_NODES][3];
 } nodes;
 
 static void nodes_read(const vtu_file *v, const picture_field *f, size_t c, nodes *d)
@@ -56,33 +56,48 @@ static void nodes_read(const vtu_file *v, const picture_field *f, size_t c, node
     size_t point[FE_MAX_NODES];
 
     d->cell = vtu_cell(v, c, point);
-    for (int i = 0; i < d->cell->n_node; i++)
-        for (int k = 0; k < 3; k++) {
-            const vtu_array *a = f->colour, *b = f->arrow;
+    for (int i = 0; i < d->cell->n_node; i++) {
+        const vtu_array *a = f->colour, *b = f->arrow;
 
+        for (int k = 0; k < 3; k++) {
             d->x[i][k] = vtu_number(&v->point, 3 * point[i] + (size_t)k);
-            d->colour[i][k] = k < a->components ? vtu_number(a, point[i] * (size_t)a->components + (size_t)k) : 0;
             d->arrow[i][k] = b ? vtu_number(b, 3 * point[i] + (size_t)k) : 0;
         }
+        for (int k = 0; k < a->components; k++)
+            d->colour[i][k] = vtu_number(a, point[i] * (size_t)a->components + (size_t)k);
+    }
+}
+
+/* Root of the sum of squares of all components; of a symmetric tensor those off the diagonal stand for two. */
+static double magnitude(const double *u, int n)
+{
+    double sum = 0;
+
+    for (int k = 0; k < n; k++)
+        sum += (n == 6 && k > 2 ? 2 : 1) * u[k] * u[k];
+    return sqrt(sum);
 }
 
 static void evaluate(const nodes *d, const picture_view *view, const picture_field *f, const double *xi,
                      picture_point *p)
 {
-    double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], u[3] = {0}, w[3] = {0};
+    double n[FE_MAX_NODES], dn[FE_MAX_NODES][3], u[PICTURE_MAGNITUDE] = {0}, w[3] = {0};
+    int n_comp = f->colour->components;
 
     memset(p, 0, sizeof *p);
     fe_basis(d->cell, 2, xi, n, dn);
-    for (int i = 0; i < d->cell->n_node; i++)
+    for (int i = 0; i < d->cell->n_node; i++) {
         for (int k = 0; k < 3; k++) {
             p->x[k] += n[i] * d->x[i][k];
-            u[k] += n[i] * d->colour[i][k];
             w[k] += n[i] * d->arrow[i][k];
         }
-    if (f->component < 3)
+        for (int k = 0; k < n_comp; k++)
+            u[k] += n[i] * d->colour[i][k];
+    }
+    if (f->component < PICTURE_MAGNITUDE)
         p->value[0] = u[f->component];
     else
-        p->value[0] = f->colour->components == 1 ? u[0] : sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+        p->value[0] = n_comp == 1 ? u[0] : magnitude(u, n_comp);
     p->value[1] = w[view->across[0]];
     p->value[2] = w[view->across[1]];
 }

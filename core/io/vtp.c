@@ -155,8 +155,20 @@ static void add_triangles(text *t, int n)
     text_add(t, "</Polys>\n");
 }
 
-static void add_cell_data(text *t, const vtp_body *body, int n, int cells)
+/* Numbers first.. of each body's more. */
+static void add_field(text *t, const vtp_body *body, int n, int cells, const vtp_field *f, int first)
 {
+    add_array(t, f->name, "Float64", f->width);
+    for (int k = 0; k < n * cells; k++)
+        for (int i = 0; i < f->width; i++)
+            text_add(t, i + 1 < f->width ? "%.9g " : "%.9g\n", body[k / cells].more[first + i]);
+    end_array(t);
+}
+
+static void add_cell_data(text *t, const vtp_body *body, int n, int cells, const vtp_field *field, int n_field)
+{
+    int first = 0;
+
     text_add(t, "<CellData>\n");
     add_array(t, "id", "Int32", 1);
     for (int k = 0; k < n * cells; k++)
@@ -170,10 +182,13 @@ static void add_cell_data(text *t, const vtp_body *body, int n, int cells)
     for (int k = 0; k < n * cells; k++)
         text_add(t, "%d\n", body[k / cells].moves != 0);
     end_array(t);
+    for (int i = 0; i < n_field; first += field[i++].width)
+        add_field(t, body, n, cells, &field[i], first);
     text_add(t, "</CellData>\n");
 }
 
-int vtp_write(const char *path, int dim, const vtp_body *body, int n, error *err)
+int vtp_write(const char *path, int dim, const vtp_body *body, int n, const vtp_field *field, int n_field,
+              error *err)
 {
     int points = dim == 2 ? OUTLINE + 1 : surface_points(bands_of(n));
     int cells = dim == 2 ? 1 : surface_triangles(bands_of(n)), status;
@@ -190,7 +205,7 @@ int vtp_write(const char *path, int dim, const vtp_body *body, int n, error *err
         add_lines(&t, body, n);
     else
         add_triangles(&t, n);
-    add_cell_data(&t, body, n, cells);
+    add_cell_data(&t, body, n, cells, field, n_field);
     text_add(&t, "</Piece>\n</PolyData>\n</VTKFile>\n");
     status = t.failed ? error_memory(err, path, (double)t.n) : file_write(path, t.s, t.n, err);
     text_free(&t);

@@ -17,15 +17,23 @@ typedef struct vtp_body {
     int moves; /* 0: it is fixed */
     solid at;
     double velocity[3]; /* of the centre, m/s              */
+    const double *more; /* [sum of the widths of vtp_field] */
 } vtp_body;
+
+/* Another quantity of bodies, with 1 or more components. */
+typedef struct vtp_field {
+    const char *name;
+    int width;
+} vtp_field;
 
 /* Writes the n bodies, whose surface must be met once by each ray from the centre, with the cell data id,
  * velocity and moves (0: the body is fixed).  2D: a line per body, closed, 96 points counter-clockwise from the
  * body's x axis, and of bodies that move a spoke there from the centre that shows how they are turned; the points
  * are each body's centre, then its outline.  3D: triangles, their normals out of the body, between 96 meridians
  * and 47 circles of latitude round the body's z axis; fewer if there are many bodies (72, 35; 48, 23).
- * ERR_IO, ERR_MEMORY. */
-int vtp_write(const char *path, int dim, const vtp_body *body, int n, error *err);
+ * field: n_field more cell data.  ERR_IO, ERR_MEMORY. */
+int vtp_write(const char *path, int dim, const vtp_body *body, int n, const vtp_field *field, int n_field,
+              error *err);
 
 /* The same read back, all in one arena. */
 typedef struct vtp_file {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * VTK XML unstructured grids.  Cells are of second order (types 22, 28, 24, 29), data appended
- * raw with 64-bit headers; vectors have three components. */
+ * raw with 64-bit headers; vectors have three components, symmetric tensors six (xx, yy, zz, xy, yz, xz), tensors
+ * nine, as ParaView knows them. */
 #include "io/vtu.h"
 
 #include "base/arena.h"
@@ -32,13 +33,29 @@ static void at_node(const space *s, int f, const double *x, const int32_t *cell,
     }
 }
 
-/* Values of a field at all nodes, v[n_node][1 or 3]. */
-static void nodal(const space *s, int f, const double *x, const vtu_bodies *bodies, double *v)
+/* Components in a file, and which of the field's stands in each; -1: none, and 0. */
+static int file_components(const field_spec *f, int dim, int *of)
+{
+    static const int two[] = {0, 2, -1, 1, -1, -1}, three[] = {0, 3, 5, 1, 4, 2};
+    int n = f->n_comp == 1 ? 1 : f->shape == PF_SYMMETRIC ? 6 : f->shape == PF_TENSOR ? 9 : 3;
+
+    for (int k = 0; k < n; k++) {
+        of[k] = k < f->n_comp ? k : -1;
+        if (n == 6)
+            of[k] = dim == 2 ? two[k] : three[k];
+        if (n == 9 && dim == 2)
+            of[k] = k / 3 < 2 && k % 3 < 2 ? k / 3 * 2 + k % 3 : -1;
+    }
+    return n;
+}
+
+/* Values of a field at all nodes, v[n_node][components in the file]. */
+static void nodal(const space *s, int f, const double *x, double *v)
 {
     const mesh *m = s->mesh;
     const field_spec *g = &s->field[f];
-    int width = g->n_comp == 1 ? 1 : 3;
-    double basis[FE_MAX_NODES][FE_MAX_NODES], ignored[FE_MAX_NODES][3];
+    int of[VALUE_MAX], width = file_components(g, m->dim, of);
+    double own[VALUE_MAX], basis[FE_MAX_NODES][FE_MAX_NODES], ignored[FE_MAX_NODES][3];
 
     for (int i = 0; i < m->type->n_node; i++)
         fe_basis(m->type, g->order, m->type->x[i], basis[i], ignored);
@@ -46,10 +63,17 @@ static void nodal(const space *s, int f, const double *x, const vtu_bodies *bodi
         for (int i = 0; i < m->type->n_node; i++) {
             const int32_t *cell = m->cell + e * m->type->n_node;
 
-            at_node(s, f, x, cell, basis[i], v + (int64_t)cell[i] * width);
+            at_node(s, f, x, cell, basis[i], own);
+            for (int k = 0; k < width; k++)
+                v[(int64_t)cell[i] * width + k] = of[k] < 0 ? 0 : own[of[k]];
         }
-    for (int64_t n = 0; bodies && bodies->empty >> f & 1 && n < m->n_node; n++)
-        for (int k = 0; bodies->body[n] >= 0 && k < width; k++)
+}
+
+/* No values at nodes inside of bodies, or outside of them. */
+static void make_empty(const int32_t *body, int64_t n_node, int inside, int width, double *v)
+{
+    for (int64_t n = 0; n < n_node; n++)
+        for (int k = 0; (body[n] >= 0) == inside && k < width; k++)
             v[n * width + k] = NAN;
 }
 
@@ -57,9 +81,17 @@ static void nodal(const space *s, int f, const double *x, const vtu_bodies *bodi
 typedef struct grid_file {
     text head;
     int n;
-    block b[SPACE_MAX_FIELDS + 5];
+    block b[2 * SPACE_MAX_FIELDS + 5];
     uint64_t offset; /* of the next block */
 } grid_file;
+
+static void name_components(grid_file *g, int width)
+{
+    static const char *const six[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
+
+    for (int k = 0; width > 3 && k < width; k++)
+        text_add(&g->head, " ComponentName%d=\"%s\"", k, width == 6 ? six[k] : term_component(PF_TENSOR, 9, k));
+}
 
 static void add_array(grid_file *g, const char *type, const char *name, const char *unit, int width,
                       const void *data, int64_t bytes)
@@ -69,6 +101,7 @@ static void add_array(grid_file *g, const char *type, const char *name, const ch
         text_add(&g->head, " unit=\"%s\"", unit);
     if (width > 1)
         text_add(&g->head, " NumberOfComponents=\"%d\"", width);
+    name_components(g, width);
     text_add(&g->head, " format=\"appended\" offset=\"%llu\"/>\n", (unsigned long long)g->offset);
     g->b[g->n++] = (block){data, (uint64_t)bytes};
     g->offset += (uint64_t)bytes + 8;
@@ -105,24 +138,24 @@ static int add_mesh(grid_file *g, const mesh *m, arena *a, error *err)
     return 0;
 }
 
-static int add_fields(grid_file *g, const space *s, const int *fields, int n_field, const double *x,
-                      const vtu_bodies *bodies, arena *a, error *err)
+static int add_fields(grid_file *g, const vtu_more *of, const int32_t *body, arena *a, error *err)
 {
-    int64_t n = s->mesh->n_node;
+    const space *s = of->space;
+    int64_t n = s ? s->mesh->n_node : 0;
 
-    text_add(&g->head, "<PointData>\n");
-    for (int i = 0; i < n_field; i++) {
-        const field_spec *f = &s->field[fields[i]];
-        int width = f->n_comp == 1 ? 1 : 3;
+    for (int i = 0; i < of->n_field; i++) {
+        const field_spec *f = &s->field[of->field[i]];
+        int at[VALUE_MAX], width = file_components(f, s->mesh->dim, at);
         double *values;
 
         ARENA_NEW(a, values, n * width, err);
-        nodal(s, fields[i], x, bodies, values);
+        nodal(s, of->field[i], of->x, values);
+        if (body && of->empty >> of->field[i] & 1)
+            make_empty(body, n, 1, width, values);
+        if (body && of->empty_outside >> of->field[i] & 1)
+            make_empty(body, n, 0, width, values);
         add_array(g, "Float64", f->name, f->unit, width, values, n * width * 8);
     }
-    if (bodies)
-        add_array(g, "Int32", "body", NULL, 1, bodies->body, n * 4);
-    text_add(&g->head, "</PointData>\n");
     return 0;
 }
 
@@ -148,6 +181,14 @@ static int put_together(const char *path, const grid_file *g, arena *a, error *e
 int vtu_write(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
               const vtu_bodies *bodies, error *err)
 {
+    return vtu_write_more(path, s, fields, n_field, x, t, bodies, &(vtu_more){0}, err);
+}
+
+int vtu_write_more(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
+                   const vtu_bodies *bodies, const vtu_more *more, error *err)
+{
+    const vtu_more own = {s, fields, n_field, x, bodies ? bodies->empty : 0, 0};
+    const int32_t *body = bodies ? bodies->body : NULL;
     grid_file g = {0};
     arena a = {0};
     int status;
@@ -162,8 +203,14 @@ int vtu_write(const char *path, const space *s, const int *fields, int n_field, 
         text_add(&g.head, "</DataArray>\n</FieldData>\n");
     }
     status = add_mesh(&g, s->mesh, &a, err);
+    text_add(&g.head, "<PointData>\n");
     if (!status)
-        status = add_fields(&g, s, fields, n_field, x, bodies, &a, err);
+        status = add_fields(&g, &own, body, &a, err);
+    if (!status)
+        status = add_fields(&g, more, body, &a, err);
+    if (body)
+        add_array(&g, "Int32", "body", NULL, 1, body, s->mesh->n_node * 4);
+    text_add(&g.head, "</PointData>\n");
     text_add(&g.head, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
     if (!status)
         status = put_together(path, &g, &a, err);

@@ -12,12 +12,24 @@ typedef struct vtu_bodies {
     uint32_t empty;      /* bit f: field f of the space has no value in bodies, NaN in the file */
 } vtu_bodies;
 
+/* Fields of another space that stand in the same file. */
+typedef struct vtu_more {
+    const space *space; /* on the same mesh */
+    const int *field;   /* [n_field] of it  */
+    int n_field;
+    const double *x;
+    uint32_t empty, empty_outside; /* bit f: field f has no value in bodies, outside of them */
+} vtu_more;
+
 /* Writes fields[n_field] of the space (order 1 ones are interpolated to all nodes, exactly) with the unknowns
  * x[n_dof] at time t; NAN: a steady state.  bodies: the point array "body" is written, too, and fields that are
  * empty in bodies have no value there; of all others x must hold what is to stand there.  NULL: no bodies.
  * ERR_IO, ERR_MEMORY; the file is then as it was. */
 int vtu_write(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
               const vtu_bodies *bodies, error *err);
+/* The same with some more. */
+int vtu_write_more(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
+                   const vtu_bodies *bodies, const vtu_more *more, error *err);
 /* The list of files with their times. */
 int vtu_write_pvd(const char *path, const char *const *file, const double *t, int n, error *err);
 

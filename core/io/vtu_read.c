@@ -195,7 +195,7 @@ static vtu_array *array_target(vtu_file *v, const walk *w, const vtu_array *a, s
         return &v->cell_type;
     if (!strcmp(w->section, "PointData") && !strcmp(a->name, "body") && a->components == 1 && a->kind == VTU_INT32)
         return &v->body;
-    if (!strcmp(w->section, "PointData") && (a->components == 1 || a->components == 3))
+    if (!strcmp(w->section, "PointData") && (a->components == 1 || a->components % 3 == 0))
         return &v->field[v->n_field];
     return NULL;
 }

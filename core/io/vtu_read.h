@@ -33,7 +33,7 @@ typedef struct vtu_file {
     size_t n_point, n_cell;
     int dim;                                          /* of the cells: 2 or 3    */
     vtu_array point, connectivity, offset, cell_type; /* point: 3 components     */
-    vtu_array field[VTU_MAX_FIELDS];                  /* PointData of 1 or 3 components */
+    vtu_array field[VTU_MAX_FIELDS];                  /* PointData of 1, 3, 6 or 9 components */
     int n_field;
     vtu_array body; /* of each point the number of the rigid body that holds it, -1: fluid; at NULL: not told */
     int has_time;

@@ -37,6 +37,9 @@ int shape_measure(shape *s, arena *memory, error *err);
 double shape_level(const shape *s, const double *body_x);
 /* Its gradient: by formula, or by central differences. */
 void shape_slope(const shape *s, const double *body_x, double *g);
+/* Sum of the principal curvatures of the surface at a point of it, 1/m: of a ball 2/R, of a disk 1/R; 0 where it is
+ * flat.  From derivatives of the level, of superellipsoids and `distance` by differences (curvature.c). */
+double shape_curvature(const shape *s, const double *body_x);
 /* Whether turning leaves it where it is: a disk, a sphere. */
 int shape_is_round(const shape *s);
 /* The error that `distance` raised since the shape was measured, or 0: for all who used the level. */
@@ -72,6 +75,7 @@ void solid_own(const solid *b, const double *x, double *own);
 /* Level at a point of space, and its gradient there. */
 double solid_level(const solid *b, const double *x);
 void solid_slope(const solid *b, const double *x, double *g);
+double solid_curvature(const solid *b, const double *x);
 /* Largest extent from the centre in direction n (unit vector of space). */
 double solid_support(const solid *b, const double *n);
 

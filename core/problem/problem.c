@@ -109,6 +109,7 @@ static int make_system(problem *p, const linear_choice *solvers, error *err)
                                         .facet_on = p->conditions.facet[i]};
     TRY(system_create(&p->system, &p->space, spec, n, solvers, p->n_thread, err));
     p->system.linear.warnings = &p->warnings;
+    p->system.assembly.walls = p->bodies.has_walls ? &p->bodies.walls : NULL;
     p->system.gauge.sharp = p->bodies.has_surface;
     return 0;
 }
@@ -119,6 +120,7 @@ static int build(problem *p, const linear_choice *solvers, error *err)
     description *d = &p->description;
 
     TRY(space_number(&p->space, &d->fields, &p->mesh, d->n_body, err));
+    TRY(kept_create(&p->space.kept, &d->kept, &p->mesh, d->n_body, &p->memory, err));
     TRY(conditions_create(&p->conditions, d, &p->space, &p->warnings, err));
     TRY(problem_check_resolution(p, err));
     TRY(bodies_create(&p->bodies, d, &p->space, &p->grid, &p->conditions, &p->warnings, err));
@@ -129,7 +131,7 @@ static int build(problem *p, const linear_choice *solvers, error *err)
                                  .fall = d->solve.fall,
                                  .max_iterations = d->solve.max_iterations,
                                  .linear_tolerance = d->solve.linear_tolerance};
-    return state_create(&p->state, p->space.n_dof, d->n_body, err);
+    return state_create(&p->state, p->space.n_dof, d->n_body, p->space.kept.n_value, err);
 }
 
 int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *err)
@@ -165,6 +167,7 @@ int problem_create_coarse(problem *p, const problem *fine, error *err)
     p->n_thread = fine->n_thread;
     p->description = fine->description;
     p->description.memory = (arena){0};
+    p->description.n_started = 0;
     TRY(problem_halve(&p->description.mesh.box, &p->memory, err));
     TRY(problem_make_mesh(&p->description, NULL, &p->mesh, err));
     TRY(make_periodic(&p->description, &p->mesh, err));
@@ -197,6 +200,7 @@ int problem_initial(problem *p, error *err)
         }
     for (int k = 0; k < d->n_body; k++)
         p->state.pose[k] = p->state.pose_before[k] = p->state.pose_before2[k] = d->body[k].start;
+    TRY(kept_start(&s->kept, d->kept_initial, d->has_kept, p->state.pose, t, p->state.kept, err));
     if (d->n_body) {
         TRY(bodies_start(&p->bodies, t, to, err));
         TRY(bodies_fill(&p->bodies, p->bodies.now, to, err));

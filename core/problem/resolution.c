@@ -22,11 +22,15 @@ static int has_slot(const pf_slot *slot, uint32_t n, const char *field, uint32_t
     return 0;
 }
 
+/* 0: it is none, or a property that another term publishes, and so another one everywhere. */
 static double number_of(const term_use *u, const char *name)
 {
     const pf_param *q = describe_param(u, name);
     double v = 0;
 
+    for (uint32_t k = 0; k < u->term->n_in; k++)
+        if (u->law[k] && strcmp(u->term->in[k].field, name) == 0)
+            return 0;
     if (q && q->type == PF_T_REAL)
         memcpy(&v, (const char *)u->params + q->offset, sizeof v);
     return v;

@@ -5,6 +5,25 @@
 
 #include <stdio.h>
 
+/* What bodies say for terms: "bodies": {"charge": [3, -1], "moment": [[1, 0], [0, 1]]}. */
+static void add_body_keys(const description *d, text *t)
+{
+    for (int i = 0; i < d->n_key; i++) {
+        const body_key *k = &d->key[i];
+
+        text_add(t, "%s\"%s\": [", i ? ", " : ",\n  \"bodies\": {", k->name);
+        for (int j = 0; j < d->n_body * k->n_comp; j++) {
+            int c = j % k->n_comp;
+
+            text_add(t, "%s%s", j ? ", " : "", k->vector && c == 0 ? "[" : "");
+            text_number(t, k->value[j]);
+            text_add(t, "%s", k->vector && c == k->n_comp - 1 ? "]" : "");
+        }
+        text_add(t, "]");
+    }
+    text_add(t, "%s", d->n_key ? "}" : "");
+}
+
 int output_case(const run *r, error *err)
 {
     const problem *p = r->p;
@@ -51,7 +70,9 @@ int output_case(const run *r, error *err)
         }
         text_add(&t, "}}");
     }
-    text_add(&t, "\n  ],\n  \"source\": ");
+    text_add(&t, "\n  ]");
+    add_body_keys(&p->description, &t);
+    text_add(&t, ",\n  \"source\": ");
     text_json(&t, p->description.c->n_source ? p->description.c->source[0].text : "");
     text_add(&t, "\n}\n");
     snprintf(path, sizeof path, "%s/case.json", r->dir);

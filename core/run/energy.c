@@ -49,7 +49,7 @@ static enum role role_of(const struct flow_energy *e, const space *s, const term
     int rows = 0, unknowns = 0;
 
     for (uint32_t o = 0; o < t->n_out; o++)
-        rows |= (int)(e->meter.now.fields >> space_find_field(s, t->out[o].field) & 1);
+        rows |= term_slot_field(&t->out[o]) && (e->meter.now.fields >> space_find_field(s, t->out[o].field) & 1);
     for (uint32_t k = 0; k < t->n_in; k++)
         unknowns |= term_is_unknown(&t->in[k]);
     if (!rows)
@@ -113,6 +113,7 @@ static int take_kinetic(run *r, error *err)
 {
     problem *p = r->p;
     newton_time at = {.t = p->state.t,
+                      .kept = p->state.kept,
                       .bodies = problem_points(p),
                       .only = ASSEMBLE_INERTIA,
                       .power = power_meter_ask(&r->energy->meter)};

@@ -2,6 +2,7 @@
  *
  * lines/NAME.csv: fields along lines, at the end of a run. */
 #include "run/run.h"
+#include "run/showing.h"
 
 #include "space/locate.h"
 
@@ -44,17 +45,34 @@ int lines_locate(run *r, error *err)
 static void add_header(const run *r, text *s)
 {
     const problem *p = r->p;
+    const field_spec *shown;
+    const int n_shown = showing_fields(r, &shown);
 
     text_add(s, "t");
     for (int d = 0; d < p->mesh.dim; d++)
         text_add(s, ",%c", "xyz"[d]);
     for (int f = 0; f < p->space.n_field; f++) {
-        char name[3][96];
+        char name[VALUE_MAX][96];
 
         for (int k = 0, n = output_components(&p->space.field[f], "", name); k < n; k++)
             text_add(s, ",%s", name[k]);
     }
+    for (int f = 0; f < n_shown; f++) {
+        char name[9][96];
+
+        for (int k = 0, n = output_components(&shown[f], "", name); k < n; k++)
+            text_add(s, ",%s", name[k]);
+    }
     text_add(s, p->bodies.n ? ",body\n" : "\n");
+}
+
+static void add_values(const double *v, int n, text *s)
+{
+    for (int c = 0; c < n; c++) {
+        text_add(s, ",");
+        if (isfinite(v[c]))
+            text_number(s, v[c]);
+    }
 }
 
 /* One point; outside the mesh, and where a field has no value, an empty cell. */
@@ -62,6 +80,8 @@ static void add_point(const run *r, const located *at, const double *x, double t
 {
     const problem *p = r->p;
     const body_place *in = at->cell >= 0 ? inside_place(r, x) : NULL;
+    const field_spec *shown;
+    const int n_shown = showing_fields(r, &shown);
 
     text_number(s, t);
     for (int d = 0; d < p->mesh.dim; d++) {
@@ -69,19 +89,24 @@ static void add_point(const run *r, const located *at, const double *x, double t
         text_number(s, x[d]);
     }
     for (int f = 0; f < p->space.n_field; f++) {
-        double v[VALUE_MAX] = {NAN, NAN, NAN};
+        double v[VALUE_MAX];
 
         if (!output_has_columns(&p->space.field[f]))
             continue;
+        for (int c = 0; c < VALUE_MAX; c++)
+            v[c] = NAN;
         if (at->cell >= 0)
             locate_value(&p->space, at, f, r->shown, v, NULL);
         if (in)
             inside_value(r, in, f, x, v);
-        for (int c = 0; c < p->space.field[f].n_comp; c++) {
-            text_add(s, ",");
-            if (isfinite(v[c]))
-                text_number(s, v[c]);
-        }
+        add_values(v, p->space.field[f].n_comp, s);
+    }
+    for (int f = 0; f < n_shown; f++) {
+        double v[9] = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+
+        if (at->cell >= 0)
+            showing_value(r, f, at, in, v);
+        add_values(v, shown[f].n_comp, s);
     }
     if (p->bodies.n && at->cell >= 0)
         text_add(s, ",%d\n", in ? in->body : -1);
@@ -97,6 +122,7 @@ int lines_write(run *r, double t, error *err)
     if (o->n_line) {
         snprintf(path, sizeof path, "%s/lines", r->dir);
         TRY(file_make_dir(path, err));
+        TRY(showing_take(r, err));
     }
     for (int i = 0; i < o->n_line; i++) {
         const line_spec *q = &o->line[i];

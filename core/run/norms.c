@@ -106,22 +106,25 @@ static int add_point(const description *p, int f, double t, const point_data *d,
     return 0;
 }
 
-/* All cells; of a field of the fluid only, the points of cut cells that are outside of the bodies. */
+/* All cells; of a field of the fluid only, the points that are outside of the bodies; of one that lives in bodies,
+ * those inside. */
 static int add_cells(const run *r, int f, double t, const point_list *whole, const point_list *fine, norm_sums *s,
                      error *err)
 {
     const problem *p = r->p;
     const placement *now = p->bodies.now;
 
+    const int inside = p->space.field[f].support == PF_IN_PARTICLES;
+
     for (int64_t e = 0; e < p->mesh.n_cell; e++) {
-        int cover = now && p->bodies.fluid_only[f] ? now->cover[e] : COVER_NONE;
+        int cover = now && (inside || p->bodies.fluid_only[f]) ? now->cover[e] : COVER_NONE;
         const point_list *l = cover ? fine : whole;
 
-        for (int q = 0; cover <= COVER_PART && q < l->n; q++) {
+        for (int q = 0; (inside ? cover != COVER_NONE : cover <= COVER_PART) && q < l->n; q++) {
             point_data d;
 
             at_point(r, f, e, l->x[q], l->w[q], &d);
-            if (!cover || bodies_at(&p->bodies, now, e, d.x, NULL) < 0)
+            if (!cover || (bodies_at(&p->bodies, now, e, d.x, NULL) >= 0) == inside)
                 TRY(add_point(&p->description, f, t, &d, s, err));
         }
     }

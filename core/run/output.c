@@ -2,6 +2,7 @@
  *
  * The folder of a run: its files opened, fields written, events logged. */
 #include "run/run.h"
+#include "run/showing.h"
 
 #include "base/clock.h"
 #include "base/process.h"
@@ -52,6 +53,7 @@ int output_take(run *r, double t, error *err)
     for (int64_t d = 0; d < r->p->space.n_dof; d++)
         r->shown[d] = r->x[d] + r->offset[d];
     inside_update(r);
+    showing_forget(r);
     r->taken = t;
     return 0;
 }
@@ -61,9 +63,14 @@ static int write_units(const run *r, text *units, error *err)
 {
     char path[4600];
 
+    const field_spec *shown;
+    const int n = showing_fields(r, &shown);
+
     for (int f = 0; f < r->p->space.n_field; f++)
         text_add(units, "%s\n  \"%s\": \"%s\"", units->n > 1 ? "," : "", r->p->space.field[f].name,
                  r->p->space.field[f].unit);
+    for (int f = 0; f < n; f++)
+        text_add(units, ",\n  \"%s\": \"%s\"", shown[f].name, shown[f].unit);
     text_add(units, "\n}\n");
     snprintf(path, sizeof path, "%s/units.json", r->dir);
     return units->failed ? error_memory(err, path, 0) : file_write(path, units->s, units->n, err);
@@ -85,6 +92,8 @@ static int open_files(run *r, text *units, error *err)
     TRY(table_open(&r->forces, err));
     TRY(table_open(&r->probes, err));
     TRY(table_open(&r->particles, err));
+    TRY(table_open(&r->integrals, err));
+    TRY(table_open(&r->values, err));
     return write_units(r, units, err);
 }
 
@@ -102,7 +111,11 @@ int output_open(run *r, error *err)
     text_add(&units, "{");
     status = tables_plan(r, &units, err);
     if (!status)
+        status = showing_plan(r, &units, err);
+    if (!status)
         status = particles_plan(r, err);
+    if (!status)
+        status = problem_table_plan(r, err);
     if (!status)
         status =
             results_expect(r, err); /* everything is known to be right before anything of an earlier run goes */
@@ -137,16 +150,20 @@ int output_fields(run *r, double t, error *err)
     vtu_bodies bodies = {.body = r->body_of_node, .empty = r->empty};
     char path[4600], name[40];
     double start = clock_seconds();
+    vtu_more more;
 
     TRY(room_for_file(r, err));
+    if (out->n_shown)
+        TRY(showing_take(r, err));
+    more = showing_file(r);
     if (r->in_file) { /* nodes inside of bodies carry fluid for the rest of a cut cell: lines still need it */
         memcpy(r->in_file, r->shown, (size_t)r->p->space.n_dof * sizeof *r->shown);
         inside_nodes(r, r->in_file);
     }
     snprintf(name, sizeof name, "fields_%05d.vtu", r->n_file);
     snprintf(path, sizeof path, "%s/%s", r->dir, name);
-    TRY(vtu_write(path, &r->p->space, out->field, out->n_field, r->in_file ? r->in_file : r->shown,
-                  r->p->description.time.unsteady ? t : NAN, r->body_of_node ? &bodies : NULL, err));
+    TRY(vtu_write_more(path, &r->p->space, out->field, out->n_field, r->in_file ? r->in_file : r->shown,
+                       r->p->description.time.unsteady ? t : NAN, r->body_of_node ? &bodies : NULL, &more, err));
     r->file[r->n_file] = strdup(name);
     if (!r->file[r->n_file])
         return error_memory(err, "list of files", 0);
@@ -182,6 +199,8 @@ void output_close(run *r)
     table_destroy(&r->forces);
     table_destroy(&r->probes);
     table_destroy(&r->particles);
+    table_destroy(&r->integrals);
+    table_destroy(&r->values);
     for (int i = 0; i < r->n_body_file; i++)
         free(r->body_file[i]);
     free(r->body_file);

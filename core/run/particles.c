@@ -3,6 +3,7 @@
  * Bodies in the results: particles.csv (a row a body and step) and, with every file of fields, their
  * outlines as particles_NNNNN.vtp. */
 #include "run/run.h"
+#include "run/showing.h"
 
 #include "io/vtp.h"
 #include "io/vtu.h"
@@ -18,18 +19,27 @@ static const char *const columns_3d[] = {
     "t",  "id", "x",  "y",         "z",         "q0",        "q1",          "q2", "q3",
     "u",  "v",  "w",  "omega_x",   "omega_y",   "omega_z",   "fx",          "fy", "fz",
     "tx", "ty", "tz", "contact_x", "contact_y", "contact_z", "active_nodes"};
-enum { COLUMNS_2D = 14, COLUMNS_3D = 25 };
+enum { COLUMNS_2D = 14, COLUMNS_3D = 25, MOST_SHOWN = 192 };
 
 int particles_plan(run *r, error *err)
 {
-    char path[4600];
+    char path[4600], name[OFF_MESH_MOST][OFF_MESH_NAME], own[MOST_SHOWN][96];
+    const char *column[COLUMNS_3D + OFF_MESH_MOST + MOST_SHOWN], *unit[MOST_SHOWN];
+    const int dim = r->p->description.dim, n = dim == 2 ? COLUMNS_2D : COLUMNS_3D;
+    int more, n_shown;
 
     if (r->p->bodies.n == 0)
         return 0;
-    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D, err);
+    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D + OFF_MESH_MOST + MOST_SHOWN, err);
+    memcpy(column, dim == 2 ? columns_2d : columns_3d, (size_t)n * sizeof *column);
+    more = off_mesh_columns(r, PF_ON_PARTICLE, name);
+    for (int i = 0; i < more; i++)
+        column[n + i] = name[i];
+    n_shown = showing_body_columns(r, MOST_SHOWN, own, unit);
+    for (int i = 0; i < n_shown; i++)
+        column[n + more + i] = own[i];
     snprintf(path, sizeof path, "%s/particles.csv", r->dir);
-    return r->p->description.dim == 2 ? table_create(&r->particles, path, columns_2d, COLUMNS_2D, err)
-                                      : table_create(&r->particles, path, columns_3d, COLUMNS_3D, err);
+    return table_create(&r->particles, path, column, n + more + n_shown, err);
 }
 
 /* How many covered cells of all bodies share each node. */
@@ -106,7 +116,9 @@ int particles_write(run *r, double t, error *err)
             *at++ = r->before_steps ? NAN : w >= 0 ? -force[w + i] : 0;
         for (int i = 0; i < dim; i++)
             *at++ = r->before_steps ? NAN : u >= 0 ? -contact[u + i] : 0;
-        *at = round(active[k]);
+        *at++ = round(active[k]);
+        at = off_mesh_values(r, PF_ON_PARTICLE, space_body_carrier(&p->space, k), at);
+        TRY(showing_body_row(r, k, at, err));
         TRY(table_add(&r->particles, row, err));
     }
     return 0;
@@ -161,31 +173,51 @@ double particles_balance(const run *r)
     return size > 0 ? sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / size : 0;
 }
 
+/* The .vtp of all places. */
+static int write_outline(run *r, const char *path, arena *scratch, error *err)
+{
+    const problem *p = r->p;
+    int list[SPACE_MAX_FIELDS], n_field = off_mesh_fields(r, PF_ON_PARTICLE, list), width = 0;
+    vtp_field field[SPACE_MAX_FIELDS];
+    vtp_body *body;
+    double *more;
+
+    for (int f = 0; f < n_field; f++) {
+        field[f] = (vtp_field){p->space.field[list[f]].name, p->space.field[list[f]].n_comp};
+        width += field[f].width;
+    }
+    ARENA_NEW(scratch, more, (int64_t)p->bodies.n * width + 1, err);
+    ARENA_NEW(scratch, body, r->n_place + 1, err);
+    for (int k = 0; k < p->bodies.n; k++)
+        off_mesh_values(r, PF_ON_PARTICLE, space_body_carrier(&p->space, k), more + k * width);
+    for (int i = 0; i < r->n_place; i++) {
+        int k = r->place[i].body;
+        int64_t u = bodies_dof(&p->bodies, k, 0);
+
+        body[i] = (vtp_body){.id = k,
+                             .moves = p->bodies.spec[k].motion != BODY_FIXED,
+                             .at = r->place[i].solid,
+                             .more = more + k * width};
+        for (int a = 0; u >= 0 && a < p->mesh.dim; a++)
+            body[i].velocity[a] = r->x[u + a];
+    }
+    return vtp_write(path, p->mesh.dim, body, r->n_place, field, n_field, err);
+}
+
 /* A .vtp with all places of bodies; of those by images the ones that meet the domain. */
 int particles_outline(run *r, error *err)
 {
     const problem *p = r->p;
     char path[4600], name[40], **more;
-    vtp_body *body;
+    arena scratch = {0};
     int status;
 
     if (p->bodies.n == 0)
         return 0;
-    body = calloc((size_t)r->n_place, sizeof *body);
-    if (!body)
-        return error_memory(err, "places of bodies", (double)r->n_place * (double)sizeof *body);
-    for (int i = 0; i < r->n_place; i++) {
-        int k = r->place[i].body;
-        int64_t u = bodies_dof(&p->bodies, k, 0);
-
-        body[i] = (vtp_body){.id = k, .moves = p->bodies.spec[k].motion != BODY_FIXED, .at = r->place[i].solid};
-        for (int a = 0; u >= 0 && a < p->mesh.dim; a++)
-            body[i].velocity[a] = r->x[u + a];
-    }
     snprintf(name, sizeof name, "particles_%05d.vtp", r->n_file - 1);
     snprintf(path, sizeof path, "%s/%s", r->dir, name);
-    status = vtp_write(path, p->mesh.dim, body, r->n_place, err);
-    free(body);
+    status = write_outline(r, path, &scratch, err);
+    arena_free(&scratch);
     TRY(status);
     TRY(bodies_check(&p->bodies, err)); /* the outline met the levels */
     more = realloc(r->body_file, (size_t)(r->n_body_file + 1) * sizeof *more);

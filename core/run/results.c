@@ -219,7 +219,8 @@ int results_check(case_file *c, const results_input *in, error *err)
         dry.column[k].name = in->column[k].name;
     }
     for (int k = 0; !status && k < in->n_mean; k++)
-        dry.mean[k] = (results_mean){.name = in->mean[k].name, .n_comp = in->mean[k].n_comp, .mean = {1, 1, 1}};
+        dry.mean[k] = (results_mean){
+            .name = in->mean[k].name, .n_comp = in->mean[k].n_comp, .mean = {1, 1, 1, 1, 1, 1, 1, 1, 1}};
     for (int k = 0; !status && k < in->n_norm; k++)
         dry.norm[k] = (results_norm){.name = in->norm[k].name, .l2 = 1, .h1 = 1, .l2_exact = 1};
     if (!status)

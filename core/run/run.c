@@ -2,6 +2,7 @@
  *
  * The course of a run: start, steps (or one steady solution), files, summary. */
 #include "run/run.h"
+#include "run/showing.h"
 
 #include "base/clock.h"
 
@@ -84,6 +85,7 @@ static int prepare(run *r, error *err)
     memcpy(r->x, p->state.x, (size_t)p->space.n_dof * sizeof *r->x);
     TRY(energy_open(r, err));
     TRY(norms_check(p, err));
+    TRY(showing_open(r, err));
     TRY(output_open(r, err));
     TRY(log_start(r, err));
     return run_tell_warnings(r, err);
@@ -105,7 +107,7 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
 
     memset(result, 0, sizeof *result);
     result->status = "ok";
-    r.forces.fd = r.probes.fd = r.particles.fd = -1;
+    r.forces.fd = r.probes.fd = r.particles.fd = r.values.fd = r.integrals.fd = -1;
     status = prepare(&r, err);
     if (!status) {
         status = p->description.time.unsteady ? unsteady(&r, stop, err) : run_steady(&r, stop, err);
@@ -124,6 +126,7 @@ int run_problem(problem *p, const char *dir, const run_talk *talk, const volatil
             run_say(&r, "  %s", r.results.s ? r.results.s : "");
     }
     energy_close(&r);
+    showing_close(&r);
     output_close(&r);
     stepper_destroy(&stepper);
     return status;

@@ -58,13 +58,15 @@ typedef struct run {
     const char *dir;
     const run_talk *talk;
     run_result *result;
-    double largest[SPACE_MAX_FIELDS]; /* size of each field so far, for is_steady */
-    int before_steps;                 /* rows are of the start: there are no reactions yet */
-    double *x;                        /* [n_dof] the solution, free fields with zero mean */
-    double taken;                     /* its time: of the last step of the run, s */
-    table forces, probes, particles;
-    double *body_row;  /* room for a row of particles.csv, and a count a body */
-    float *node_share; /* [n_node] */
+    double largest[SPACE_MAX_FIELDS];        /* size of each field so far, for is_steady */
+    int before_steps;                        /* rows are of the start: there are no reactions yet */
+    double *x;                               /* [n_dof] the solution, free fields with zero mean */
+    double taken;                            /* its time: of the last step of the run, s */
+    table forces, probes, particles, values; /* values: problem.csv */
+    table integrals;
+    struct showing *showing; /* NULL: no term shows anything (showing.h) */
+    double *body_row;        /* room for a row of particles.csv, and a count a body */
+    float *node_share;       /* [n_node] */
     int n_body_file;
     char **body_file;
     int64_t n_time, time_room;
@@ -111,7 +113,8 @@ int output_fields(run *r, double t, error *err); /* a .vtu and the .pvd         
 int output_event(run *r, const char *event, const char *fields_json, error *err);
 int output_case(const run *r, error *err); /* case.json */
 
-/* Columns of a field in tables: u, v, w for the velocity; name, or name_x, for others.  Their number. */
+/* Columns of a field in tables: u, v, w for the velocity; name, or name_x, or name_xy, for others.  Their number.
+ */
 int output_components(const field_spec *f, const char *prefix, char (*name)[96]);
 int output_has_columns(const field_spec *f);
 int tables_locate(run *r, error *err);            /* ERR_CASE if a probe lies outside the mesh */
@@ -130,6 +133,17 @@ const body_place *inside_place(const run *r, const double *x); /* the body that 
 void inside_value(const run *r, const body_place *p, int field, const double *x, double *v);
 /* r->body_of_node; the motion of bodies at the nodes that they hold into shown [n_dof]. */
 void inside_nodes(run *r, double *shown);
+
+/* --- fields off the mesh (off_mesh.c) --- */
+
+enum { OFF_MESH_NAME = 96, OFF_MESH_MOST = 9 * SPACE_MAX_FIELDS };
+/* Those with this support, bodies' velocity and spin left out: how many; their columns; values of a carrier,
+ * returns what follows. */
+int off_mesh_fields(const run *r, uint32_t support, int *list);
+int off_mesh_columns(const run *r, uint32_t support, char (*name)[OFF_MESH_NAME]);
+double *off_mesh_values(const run *r, uint32_t support, int32_t carrier, double *to);
+int problem_table_plan(run *r, error *err);
+int problem_table_add(run *r, double t, error *err); /* a row of problem.csv */
 
 int particles_plan(run *r, error *err);
 double particles_energy(const run *r); /* kinetic, J */

@@ -3,6 +3,7 @@
  * What a run has for the function in results(...) of its case: columns of tables, means, norms of errors. */
 #include "run/results.h"
 #include "run/run.h"
+#include "run/showing.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -20,12 +21,15 @@ static results_column column_of(const run *r, const table *t, int c, const char 
 
 static int gather_columns(const run *r, arena *memory, results_input *in, error *err)
 {
-    const table *plain[] = {&r->forces, &r->probes}, *bodies = &r->particles;
+    const table *plain[] = {&r->forces, &r->probes, &r->values, &r->integrals}, *bodies = &r->particles;
     int n_body = r->p->bodies.n;
 
     in->t = (results_column){.first = r->time, .stride = 1, .n = (long)r->n_time};
-    ARENA_NEW(memory, in->column, r->forces.n_column + r->probes.n_column + n_body * bodies->n_column + 1, err);
-    for (int k = 0; k < 2; k++)
+    ARENA_NEW(memory, in->column,
+              r->forces.n_column + r->probes.n_column + r->values.n_column + r->integrals.n_column +
+                  n_body * bodies->n_column + 1,
+              err);
+    for (int k = 0; k < 4; k++)
         for (int c = 1; c < plain[k]->n_column; c++)
             in->column[in->n_column++] = column_of(r, plain[k], c, plain[k]->column[c], 0, 1);
     for (int id = 0; id < n_body; id++) /* p<id>.<name>, from the third column on: t, id, ... */
@@ -44,10 +48,12 @@ static int gather_columns(const run *r, arena *memory, results_input *in, error 
 static int gather(const run *r, int over, arena *memory, results_input *in, error *err)
 {
     const problem *p = r->p;
+    const field_spec *shown;
+    const int n_shown = showing_fields(r, &shown);
 
     *in = (results_input){.dt = p->description.time.step};
     TRY(gather_columns(r, memory, in, err));
-    ARENA_NEW(memory, in->mean, p->space.n_field + 1, err);
+    ARENA_NEW(memory, in->mean, p->space.n_field + n_shown + 1, err);
     ARENA_NEW(memory, in->norm, p->space.n_field + 1, err);
     for (int f = 0; f < p->space.n_field; f++) {
         results_mean *mean = &in->mean[in->n_mean];
@@ -60,6 +66,12 @@ static int gather(const run *r, int over, arena *memory, results_input *in, erro
         }
         if (!over && p->description.has_exact[f])
             in->norm[in->n_norm++].name = p->space.field[f].name;
+    }
+    for (int f = 0; f < n_shown; f++) {
+        results_mean *mean = &in->mean[in->n_mean++];
+
+        *mean = (results_mean){.name = shown[f].name, .n_comp = shown[f].n_comp};
+        memcpy(mean->mean, showing_mean(r, f), (size_t)shown[f].n_comp * sizeof *mean->mean);
     }
     for (int i = 0; over && i < r->result->n_error; i++)
         in->norm[in->n_norm++] = (results_norm){r->result->error_norm[i].name, r->result->error_norm[i].l2,

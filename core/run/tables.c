@@ -2,6 +2,7 @@
  *
  * forces.csv and probes.csv: a row a step, or one wherever they are due. */
 #include "run/run.h"
+#include "run/showing.h"
 
 #include "base/list.h"
 
@@ -10,27 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const char axis[] = "xyz", velocity_name[] = "uvw";
-
-int output_has_columns(const field_spec *f)
-{
-    return f->support != PF_ON_PARTICLE; /* those are in particles.csv */
-}
-
-int output_components(const field_spec *f, const char *prefix, char (*name)[96])
-{
-    if (!output_has_columns(f))
-        return 0;
-    for (int k = 0; k < f->n_comp; k++)
-        if (f->n_comp == 1)
-            snprintf(name[k], 96, "%s%s", prefix, f->name);
-        else if (strcmp(f->name, "u") == 0)
-            snprintf(name[k], 96, "%s%c", prefix, velocity_name[k]);
-        else
-            snprintf(name[k], 96, "%s%s_%c", prefix, f->name, axis[k]);
-    return f->n_comp;
-}
 
 typedef struct columns {
     int n, room;
@@ -88,7 +68,8 @@ static int plan_table(run *r, table *t, const char *file, columns *c, text *unit
     return status;
 }
 
-/* Columns of one boundary: fx, fy[, fz], torque (2D) or tx, ty, tz, and other reactions by name. */
+/* Columns of one boundary: fx, fy[, fz], torque (2D) or tx, ty, tz, and other reactions by name; of a tensor fxx,
+ * fxy, ... */
 static void force_columns(const problem *p, const char *boundary, columns *c)
 {
     for (int f = 0; f < p->space.n_field; f++) {
@@ -103,15 +84,16 @@ static void force_columns(const problem *p, const char *boundary, columns *c)
             if (g->n_comp == 1)
                 snprintf(name[k], 96, "%.40s.%s", boundary, g->reaction);
             else
-                snprintf(name[k], 96, "%.40s.%c%c", boundary, g->reaction[0], axis[k]);
-        if (g->n_comp == 1 || !name)
+                snprintf(name[k], 96, "%.40s.%c%s", boundary, g->reaction[0],
+                         term_component((uint32_t)g->shape, g->n_comp, k));
+        if (g->shape != PF_VECTOR || !name)
             continue;
         name = more(c, n_torque, "N m");
         for (int k = 0; name && k < n_torque; k++)
             if (p->description.dim == 2)
                 snprintf(name[k], 96, "%.40s.torque", boundary);
             else
-                snprintf(name[k], 96, "%.40s.t%c", boundary, axis[k]);
+                snprintf(name[k], 96, "%.40s.t%c", boundary, "xyz"[k]);
     }
 }
 
@@ -134,6 +116,8 @@ static int plan_probes(run *r, columns *c, text *units, error *err)
 {
     const problem *p = r->p;
     const output_spec *o = &p->description.output;
+    const field_spec *shown;
+    const int n_shown = showing_fields(r, &shown);
     char(*name)[96] = more(c, 1, "s");
 
     if (name)
@@ -148,6 +132,11 @@ static int plan_probes(run *r, columns *c, text *units, error *err)
                        : NULL;
             if (name)
                 output_components(&p->space.field[f], prefix, name);
+        }
+        for (int f = 0; f < n_shown; f++) {
+            name = more(c, shown[f].n_comp, shown[f].unit);
+            if (name)
+                output_components(&shown[f], prefix, name);
         }
         name = p->bodies.n ? more(c, 1, "1") : NULL;
         if (name)
@@ -215,29 +204,31 @@ static double *reaction(const run *r, int boundary, int f, const double *about, 
     int n_comp = s->field[f].n_comp,
         n_local = s->field[f].order == 2 ? m->type->facet_nodes : m->type->facet_vertices;
     uint8_t *mine = r->facet_count, *all = mine + m->n_node, *seen = all + m->n_node;
-    double torque[3] = {0}, sum[3] = {0};
+    double torque[3] = {0}, sum[VALUE_MAX] = {0};
+    int turns = s->field[f].shape == PF_VECTOR;
 
     memset(mine, 0, (size_t)(3 * m->n_node));
     count_facets(p, boundary, f, n_local, mine, all);
     for (int32_t node = 0; node < m->n_node; node++) {
         const double *res = r->stepper->reaction[REACTION_ALL] + (mine[node] ? s->first[f][node] : 0);
         int32_t carrier = mine[node] ? s->dof_node[s->first[f][node]] : 0; /* periodic ends are one node */
-        double share = all[node] > mine[node] ? (double)mine[node] / all[node] : 1, d[3] = {0}, q[3] = {0};
+        double share = all[node] > mine[node] ? (double)mine[node] / all[node] : 1, d[3] = {0}, q[VALUE_MAX] = {0};
 
         if (!mine[node] || seen[carrier]++)
             continue;
         for (int a = 0; a < n_comp; a++) {
             q[a] = -share * res[a];
             sum[a] += q[a];
-            d[a] = n_comp > 1 ? m->x[(int64_t)node * m->dim + a] - about[a] : 0;
         }
+        for (int a = 0; turns && a < m->dim; a++)
+            d[a] = m->x[(int64_t)node * m->dim + a] - about[a];
         torque[0] += d[1] * q[2] - d[2] * q[1];
         torque[1] += d[2] * q[0] - d[0] * q[2];
         torque[2] += d[0] * q[1] - d[1] * q[0];
     }
     for (int a = 0; a < n_comp; a++)
         *out++ = sum[a];
-    if (n_comp > 1)
+    if (turns)
         for (int a = m->dim == 2 ? 2 : 0; a < 3; a++)
             *out++ = torque[a];
     return out;
@@ -248,8 +239,11 @@ static int add_probes(run *r, double t, double *row, error *err)
 {
     const problem *p = r->p;
     const output_spec *o = &p->description.output;
+    const field_spec *shown;
+    const int n_shown = showing_fields(r, &shown);
     double *at = row;
 
+    TRY(showing_take(r, err));
     *at++ = t;
     for (int i = 0; i < o->n_probe; i++) {
         const body_place *in = inside_place(r, o->probe[i].x);
@@ -262,6 +256,8 @@ static int add_probes(run *r, double t, double *row, error *err)
                 inside_value(r, in, f, o->probe[i].x, at);
             at += p->space.field[f].n_comp;
         }
+        for (int f = 0; f < n_shown; at += shown[f++].n_comp)
+            showing_value(r, f, &r->probe_at[i], in, at);
         if (p->bodies.n)
             *at++ = in ? in->body : -1;
     }
@@ -292,6 +288,10 @@ int tables_add(run *r, double t, error *err)
         status = add_forces(r, t, row, err);
     if (!status && o->n_probe)
         status = add_probes(r, t, row, err);
+    if (!status)
+        status = showing_row(r, t, err);
+    if (!status)
+        status = problem_table_add(r, t, err);
     free(row);
     TRY(status);
     if (r->before_steps)

@@ -14,7 +14,7 @@ typedef struct unknown_name {
     char s[200];
 } unknown_name;
 
-/* "p at (0.5, 0.2)", "u[1] at (0.5, 0.2)", "U[2] of particle 3", "Phi". */
+/* "p at (0.5, 0.2)", "u[1] at (0.5, 0.2)", "T_xy at (0, 1)", "U[2] of particle 3", "Phi". */
 static unknown_name name_of(const space *s, int64_t dof)
 {
     const field_spec *f = &s->field[s->dof_field[dof]];
@@ -22,7 +22,10 @@ static unknown_name name_of(const space *s, int64_t dof)
     unknown_name n;
     int at = snprintf(n.s, sizeof n.s, "%.60s", f->name);
 
-    if (f->n_comp > 1)
+    if (term_is_tensor((uint32_t)f->shape))
+        at += snprintf(n.s + at, sizeof n.s - (size_t)at, "_%s",
+                       term_component((uint32_t)f->shape, f->n_comp, s->dof_comp[dof]));
+    else if (f->n_comp > 1)
         at += snprintf(n.s + at, sizeof n.s - (size_t)at, "[%d]", s->dof_comp[dof] + 1);
     if (carrier < s->mesh->n_node)
         snprintf(n.s + at, sizeof n.s - (size_t)at, " at %s",

@@ -97,11 +97,13 @@ void system_destroy(newton_system *s);
 typedef struct newton_time {
     double t, dt, shift;
     const double *history, *old; /* NULL: steady */
+    const double *kept;          /* see assembly_state */
     const body_points *bodies;   /* NULL: none   */
     const moving_frame *frame;   /* NULL: none   */
     double faded;                /* see assembly_state */
     uint32_t only;               /* not 0: terms with one of these flags only */
     assembly_power *power;       /* NULL: nobody asks */
+    const double (*fluid)[6];    /* see assembly_state */
 } newton_time;
 
 /* The residual of all rows at x, as it is (reactions at prescribed unknowns). */
@@ -116,6 +118,8 @@ int newton_solve(newton_system *s, const newton_time *time, const newton_options
 /* s->residual, and the matrix in s->linear.value, at x; errors and `diagnose` as assembly_run (system.c). */
 int system_evaluate(newton_system *s, const newton_time *time, const double *x, int with_matrix, int diagnose,
                     error *err);
+/* Memory at x, see assembly_keep. */
+int system_keep(newton_system *s, const newton_time *time, const double *x, double *kept, error *err);
 /* Whether all terms that take part are linear: the matrix is the same for every x. */
 int system_is_linear(const newton_system *s, const newton_time *time);
 

@@ -55,6 +55,20 @@ int step_react(stepper *p, newton_time time, const double *x, error *err)
     return power_meter_read(p->meter, p->level, p->reaction[REACTION_ALL], time.bodies, err);
 }
 
+/* What the fluid does to the bodies, by the reactions of the step. */
+static void remember_fluid(const stepper *p, state *to)
+{
+    const int n[2] = {p->bodies->space->mesh->dim, p->bodies->space->mesh->dim == 2 ? 1 : 3};
+
+    for (int k = 0; k < (int)to->n_body; k++)
+        for (int spin = 0; spin < 2; spin++) {
+            int64_t d = bodies_dof(p->bodies, k, spin);
+
+            for (int i = 0; i < n[spin]; i++)
+                to->fluid[k].force[3 * spin + i] = d >= 0 ? -p->reaction[REACTION_FLUID][d + i] : 0;
+        }
+}
+
 /* Whether a step that carries bodies so far must be a shorter one; says so, of each kind once. */
 static int goes_too_far(stepper *p, const state *from, const state *to, double dt)
 {
@@ -162,11 +176,25 @@ static int place_ahead(stepper *p, const state *from, state *to, double dt, int 
     return 0;
 }
 
+/* Memory at the end of the step.  A term that asks for a shorter one gets it. */
+static int keep(stepper *p, const newton_time *time, state *to, int *converged, error *err)
+{
+    int status = system_keep(p->system, time, to->x, to->kept, err);
+
+    if (!status || !err->retry)
+        return status;
+    snprintf(p->report.why, sizeof p->report.why, "%.500s", err->text);
+    *converged = 0;
+    return 0;
+}
+
 /* One BDF step of order 1 or 2 from a state to another. */
 static int step(stepper *p, const state *from, state *to, int order, double dt, int *converged, error *err)
 {
     bdf b = bdf_of(order, dt, from->dt_previous);
-    newton_time time = {.t = from->t + dt, .dt = dt, .shift = b.shift, .history = p->history, .old = from->x};
+    newton_time time = {
+        .t = from->t + dt, .dt = dt, .shift = b.shift, .history = p->history, .old = from->x, .kept = from->kept};
+    time.fluid = (const double(*)[6])from->fluid;
     int too_far = 0;
 
     *converged = 0;
@@ -200,6 +228,8 @@ static int step(stepper *p, const state *from, state *to, int order, double dt, 
     if (p->bodies->n)
         TRY(bodies_fill(p->bodies, p->bodies->now, to->x, err));
     TRY(step_react(p, time, to->x, err));
+    TRY(keep(p, &time, to, converged, err));
+    remember_fluid(p, to);
     advance_levels(from, to, dt);
     return 0;
 }
@@ -226,9 +256,11 @@ static int start(stepper *p, const state *from, double dt, int *converged, error
     for (int64_t k = 0; k < n; k++) /* what was off in one of the two has no value there to extrapolate from */
         whole->x[k] =
             p->idle[k] || (p->bodies->n && p->bodies->now->idle[k]) ? full->x[k] : 2 * full->x[k] - whole->x[k];
+    memcpy(whole->kept, full->kept, (size_t)from->n_kept * sizeof *full->kept); /* bounds of memory hold */
     for (int i = 0; i < REACTIONS && p->reaction[i]; i++)
         for (int64_t k = 0; k < n; k++)
             p->reaction[i][k] = 2 * p->reaction[i][k] - p->saved[i][k];
+    remember_fluid(p, whole);
     bodies_move(p->bodies, from->pose, dt, from->x, whole->x, whole->pose);
     if (goes_too_far(p, from, whole, dt))
         *converged = 0;

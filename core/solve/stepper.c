@@ -24,7 +24,7 @@ int stepper_create(stepper *p, newton_system *s, bodies *b, const conditions *c,
     p->conditions = c;
     p->now = now;
     for (int i = 0; i < 3; i++)
-        TRY(state_create(&p->trial[i], now->n_dof, now->n_body, err));
+        TRY(state_create(&p->trial[i], now->n_dof, now->n_body, now->n_kept, err));
     ARENA_NEW(&p->memory, p->history, n, err);
     ARENA_NEW(&p->memory, p->level, n, err);
     ARENA_NEW(&p->memory, p->predicted, n, err);

@@ -10,14 +10,40 @@
 
 _Static_assert(SPACE_MAX_FIELDS <= 32, "newton_system.coupled has a bit per field");
 
-/* Couplings as the terms declare them.  The matrix of one state would not do: a derivative may vanish there. */
-static void couple_fields(newton_system *s, const pf_term *t)
+/* Fields that a property depends on: bit f. */
+static uint32_t fields_behind(const space *s, const term_use *law, const char *property)
 {
+    const pf_term *t = law->term;
+    const int o = term_publishes(t, property);
+    uint32_t fields = 0;
+
+    for (uint32_t k = 0; k < t->n_in; k++)
+        if (t->depends && !t->depends[(uint32_t)o * t->n_in + k])
+            continue;
+        else if (term_is_unknown(&t->in[k]))
+            fields |= 1u << space_find_field(s, t->in[k].field);
+        else if (law->law[k])
+            fields |= fields_behind(s, law->law[k], t->in[k].field);
+    return fields;
+}
+
+/* Couplings as the terms declare them.  The matrix of one state would not do: a derivative may vanish there. */
+static void couple_fields(newton_system *s, const term_use *u)
+{
+    const pf_term *t = u->term;
+
     for (uint32_t o = 0; o < t->n_out; o++)
-        for (uint32_t k = 0; k < t->n_in; k++)
-            if (term_is_unknown(&t->in[k]) && (!t->depends || t->depends[o * t->n_in + k]))
-                s->coupled[space_find_field(s->space, t->out[o].field)] |=
-                    1u << space_find_field(s->space, t->in[k].field);
+        for (uint32_t k = 0; k < t->n_in; k++) {
+            uint32_t *coupled;
+
+            if (!term_slot_field(&t->out[o]) || (t->depends && !t->depends[o * t->n_in + k]))
+                continue;
+            coupled = &s->coupled[space_find_field(s->space, t->out[o].field)];
+            if (term_is_unknown(&t->in[k]))
+                *coupled |= 1u << space_find_field(s->space, t->in[k].field);
+            else if (u->law[k] && u->where != PF_PAIR)
+                *coupled |= fields_behind(s->space, u->law[k], t->in[k].field);
+        }
 }
 
 int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_spec, const linear_choice *solvers,
@@ -37,7 +63,7 @@ int system_create(newton_system *s, space *sp, const assembly_spec *spec, int n_
     ARENA_NEW(&s->memory, s->work, sp->n_dof, err);
     for (int k = 0; k < n_spec; k++)
         for (int u = 0; u < spec[k].n_use; u++)
-            couple_fields(s, spec[k].use[u]->term);
+            couple_fields(s, spec[k].use[u]);
     return 0;
 }
 
@@ -55,28 +81,33 @@ void system_destroy(newton_system *s)
     memset(s, 0, sizeof *s);
 }
 
+/* What the assembly is told; s->work is the rate. */
+static assembly_state state_of(newton_system *s, const newton_time *time, const double *x)
+{
+    for (int64_t d = 0; d < s->space->n_dof; d++)
+        s->work[d] = time->history ? time->shift * x[d] + time->history[d] : 0;
+    return (assembly_state){.t = time->t,
+                            .dt = time->dt,
+                            .shift = time->shift,
+                            .x = x,
+                            .dot = s->work,
+                            .old = time->old ? time->old : x,
+                            .kept = time->kept,
+                            .fluid = time->fluid,
+                            .bodies = time->bodies,
+                            .frame = time->frame,
+                            .faded = time->faded,
+                            .only = time->only,
+                            .power = time->power};
+}
+
 int system_evaluate(newton_system *s, const newton_time *time, const double *x, int with_matrix, int diagnose,
                     error *err)
 {
-    const space *sp = s->space;
-    assembly_state st = {.t = time->t,
-                         .dt = time->dt,
-                         .shift = time->shift,
-                         .x = x,
-                         .dot = s->work,
-                         .old = time->old,
-                         .bodies = time->bodies,
-                         .frame = time->frame,
-                         .faded = time->faded,
-                         .only = time->only,
-                         .power = time->power};
     double start = clock_seconds();
+    assembly_state st = state_of(s, time, x);
     int status;
 
-    for (int64_t d = 0; d < sp->n_dof; d++)
-        s->work[d] = time->history ? time->shift * x[d] + time->history[d] : 0;
-    if (!st.old)
-        st.old = x;
     gauge_use(s, time->bodies);
     status = assembly_run(&s->assembly, &st, s->residual, with_matrix ? s->linear.value : NULL, diagnose, err);
     s->evaluations++;
@@ -91,11 +122,20 @@ int system_is_linear(const newton_system *s, const newton_time *time)
 
     for (int k = 0; k < s->assembly.n_class; k++)
         for (int u = 0; u < s->assembly.class_[k].n_use; u++) {
-            const term_use *use = s->assembly.class_[k].use[u].use;
+            const plan_use *p = &s->assembly.class_[k].use[u];
+            const term_use *use = p->use;
 
-            linear &= (use->term->flags & PF_LINEAR) || ((use->term->flags & PF_CONTINUATION) && time->faded == 1);
+            linear &= ((use->term->flags & PF_LINEAR) && !p->varies) ||
+                      ((use->term->flags & PF_CONTINUATION) && time->faded == 1);
         }
     return linear;
+}
+
+int system_keep(newton_system *s, const newton_time *time, const double *x, double *kept, error *err)
+{
+    const assembly_state st = state_of(s, time, x);
+
+    return s->space->kept.n ? assembly_keep(&s->assembly, &st, kept, err) : 0;
 }
 
 int newton_residual(newton_system *s, const newton_time *time, const double *x, double *residual, error *err)

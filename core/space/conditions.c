@@ -45,7 +45,7 @@ static int add_set(conditions *c, space *s, int line, int field, int comp, const
     return 0;
 }
 
-/* No flow through: the component of every vector field along the normal of each facet is zero. */
+/* Components that the mirror turns are zero: of a vector the normal one, of a tensor those with the normal once. */
 static int add_symmetry(conditions *c, const description *d, space *s, int line, error *err)
 {
     const mesh *m = s->mesh;
@@ -65,8 +65,10 @@ static int add_symmetry(conditions *c, const description *d, space *s, int line,
         }
     }
     for (int f = 0; f < s->n_field; f++)
-        for (int k = 0; k < m->dim && s->field[f].shape == PF_VECTOR && s->field[f].support == PF_ON_MESH; k++)
-            TRY(add_set(c, s, line, f, k, NULL, axis, k, err));
+        for (int a = 0; a < m->dim && s->field[f].support == PF_ON_MESH; a++)
+            for (int k = 0; k < s->field[f].n_comp; k++)
+                if (term_turns_sign((uint32_t)s->field[f].shape, s->field[f].n_comp, k, a))
+                    TRY(add_set(c, s, line, f, k, NULL, axis, a, err));
     return 0;
 }
 
@@ -116,7 +118,7 @@ int conditions_create(conditions *c, const description *d, space *s, warning_lis
     for (int i = 0; i < d->n_line; i++) {
         ARENA_NEW(&c->memory, c->facet[i], s->mesh->n_facet + 1, err);
         describe_facets(d, s->mesh, i, c->facet[i]);
-        sets += SPACE_MAX_FIELDS * (1 + d->line[i].symmetry * d->dim);
+        sets += SPACE_MAX_FIELDS * (1 + d->line[i].symmetry * d->dim * VALUE_MAX);
     }
     ARENA_NEW(&c->memory, c->set, sets + 1, err);
     for (int at = 0; at < d->n_line; at++)

@@ -20,6 +20,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "mesh/mesh.h"
+#include "space/kept.h"
 #include "term/term.h"
 
 #include <stdint.h>
@@ -47,6 +48,7 @@ typedef struct space {
     const mesh *mesh;
     int n_field;
     const field_spec *field; /* [n_field] of the description */
+    kept_fields kept;        /* memory of terms: no unknowns */
 
     int n_particle, any_problem;
     int64_t n_attached; /* pairs of a cell and a body near it */

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* What a member has one of. */
-enum per { PER_STATE, PER_DOF, PER_BODY };
+enum per { PER_STATE, PER_DOF, PER_BODY, PER_KEPT };
 
 static const struct member {
     enum per per;
@@ -20,12 +20,14 @@ static const struct member {
     {PER_DOF, offsetof(state, x), sizeof(double)},
     {PER_DOF, offsetof(state, before), sizeof(double)},
     {PER_DOF, offsetof(state, before2), sizeof(double)},
+    {PER_KEPT, offsetof(state, kept), sizeof(double)},
     {PER_BODY, offsetof(state, pose), sizeof(pose)},
     {PER_BODY, offsetof(state, pose_before), sizeof(pose)},
     {PER_BODY, offsetof(state, pose_before2), sizeof(pose)},
     {PER_STATE, offsetof(state, count), sizeof(step_counts)},
     {PER_STATE, offsetof(state, control), sizeof(step_control)},
     {PER_BODY, offsetof(state, past), sizeof(body_past)},
+    {PER_BODY, offsetof(state, fluid), sizeof(body_fluid)},
     {PER_STATE, offsetof(state, written), sizeof(double)},
 };
 
@@ -33,7 +35,10 @@ enum { N_MEMBER = sizeof table / sizeof *table };
 
 static size_t entries(const state *s, const struct member *m)
 {
-    return m->per == PER_STATE ? 1 : (size_t)(m->per == PER_DOF ? s->n_dof : s->n_body);
+    return m->per == PER_STATE ? 1
+                               : (size_t)(m->per == PER_DOF    ? s->n_dof
+                                          : m->per == PER_KEPT ? s->n_kept
+                                                               : s->n_body);
 }
 
 /* Where the values of a member are. */
@@ -48,11 +53,12 @@ static void *values(const state *s, const struct member *m)
     return array;
 }
 
-int state_create(state *s, int64_t n_dof, int64_t n_body, error *err)
+int state_create(state *s, int64_t n_dof, int64_t n_body, int64_t n_kept, error *err)
 {
     memset(s, 0, sizeof *s);
     s->n_dof = n_dof;
     s->n_body = n_body;
+    s->n_kept = n_kept;
     for (int i = 0; i < N_MEMBER; i++) {
         size_t n = entries(s, &table[i]);
         void *array;

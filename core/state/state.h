@@ -22,6 +22,11 @@ typedef struct body_past {
     double motion[STATE_PAST][6];
 } body_past;
 
+/* Force and torque of the fluid on a body at the end of the last step (2D: 4th and on: one torque); 0 at the start. */
+typedef struct body_fluid {
+    double force[6];
+} body_fluid;
+
 /* What is remembered of the errors of steps, each over what is allowed; see solve/step_control.h. */
 typedef struct step_control {
     double next;                    /* length of the next step, s */
@@ -48,17 +53,19 @@ typedef struct step_counts {
 typedef struct state {
     double t, dt_previous, dt_before;        /* now, and the lengths of the last step and of that before it, s */
     int64_t n_history;                       /* steps behind that a scheme may look back to                    */
-    int64_t n_dof, n_body;                   /* sizes */
+    int64_t n_dof, n_body, n_kept;           /* sizes */
     double *x, *before, *before2;            /* [n_dof] unknowns now, a step ago and two                        */
+    double *kept;                            /* [n_kept] memory of terms, see space/kept.h                      */
     pose *pose, *pose_before, *pose_before2; /* [n_body] of the bodies */
     step_counts count;
     step_control control; /* of steps that choose their length */
     body_past *past;      /* [n_body] */
+    body_fluid *fluid;    /* [n_body] */
     double written;       /* time of the last file of fields, s */
     arena memory;
 } state;
 
-int state_create(state *s, int64_t n_dof, int64_t n_body, error *err);
+int state_create(state *s, int64_t n_dof, int64_t n_body, int64_t n_kept, error *err);
 /* Both of the same sizes. */
 void state_copy(state *to, const state *from);
 /* Exchanges two states of the same sizes. */

@@ -66,6 +66,8 @@ void bench_repeat(double *row);
 
 /* Other values in all inputs, in the ranges of their slots. */
 void bench_random_inputs(bench *k);
+/* The same but for properties: a term is linear at given ones. */
+void bench_random_state(bench *k);
 /* 1 if some slot has a range. */
 int bench_has_range(const bench *k);
 /* Writes a parameter: one number, dim numbers of a vector. */

@@ -33,12 +33,12 @@ static double within(bench *k, double low, double high)
 }
 
 /* Scalars that are no gradients are positive, as temperatures and viscosities are. */
-void bench_random_inputs(bench *k)
+static void random_inputs(bench *k, int properties)
 {
     for (uint32_t i = 0; i < k->t->n_in; i++) {
         const pf_slot *s = &k->t->in[i];
 
-        for (int c = 0; c < bench_components(k, s); c++) {
+        for (int c = 0; (properties || s->eval != PF_PROPERTY) && c < bench_components(k, s); c++) {
             for (int l = 0; l < BENCH_N; l++)
                 k->in[i][c * BENCH_LD + l] = s->min < s->max         ? within(k, s->min, s->max)
                                              : s->shape == PF_SCALAR ? bench_number(k, 0.5, 2.5)
@@ -46,6 +46,16 @@ void bench_random_inputs(bench *k)
             bench_repeat(k->in[i] + c * BENCH_LD);
         }
     }
+}
+
+void bench_random_inputs(bench *k)
+{
+    random_inputs(k, 1);
+}
+
+void bench_random_state(bench *k)
+{
+    random_inputs(k, 0);
 }
 
 void bench_put_param(bench *k, const pf_param *p, const double *v)

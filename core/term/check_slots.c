@@ -44,6 +44,10 @@ static int check_special(const pf_slot *slot, uint32_t where, int is_out, const 
     if ((key && !on_body) || (slot->eval == PF_OTHER_KEY && where != PF_PAIR))
         return check_wrong(err, s, "slot \"%s\": %s points have no %s", slot->name, term_where_name(where),
                            term_eval_name(slot->eval));
+    if (shown && where == PF_CUT)
+        return check_wrong(err, s, "slot \"%s\": PF_CUT points have nothing to show", slot->name);
+    if (shown && slot->shape > PF_SYMMETRIC)
+        return check_wrong(err, s, "slot \"%s\": a gradient of a tensor cannot be shown", slot->name);
     if (slot->eval == PF_SHOW && where != PF_CELL && where != PF_FLUID && where != PF_SOLID)
         return check_wrong(err, s, "slot \"%s\": a field can be shown of points in cells, not of %s points",
                            slot->name, term_where_name(where));
@@ -169,6 +173,10 @@ static const char *later(const pf_term *t, uint32_t *minor)
             return s->eval > PF_LAPLACE ? term_eval_name(s->eval) : "a slot";
         }
     }
+    if (t->replaces || t->init || t->done) {
+        *minor = 4;
+        return t->replaces ? "replaces" : "init and done";
+    }
     if (t->where == PF_PARTICLE || t->flags & (PF_WALL_DISTANCE | PF_ONLY_2D | PF_ONLY_3D | PF_LAST)) {
         *minor = 4;
         return t->where == PF_PARTICLE ? "PF_PARTICLE" : "a flag";
@@ -204,6 +212,8 @@ static int check_whole(const term_plugin *p, const pf_term *t, const check_subje
                 "shown are terms of their own",
                 t->out[o].name, term_eval_name(e));
     }
+    if (kind == TERM_SHOWS && (t->flags & PF_BY_BOUNDARY))
+        return check_wrong(err, s, "has PF_BY_BOUNDARY, but what is shown is so of all boundaries");
     if (kind == TERM_PUBLISHES && t->where != PF_CELL && t->where != PF_FLUID && t->where != PF_SOLID)
         return check_wrong(
             err, s,

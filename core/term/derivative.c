@@ -58,7 +58,7 @@ static int by_complex_step(const pf_term *t, const pf_batch *b, const double *co
         room += (size_t)term_components(t->out[o].shape, dim) * ld;
     }
     for (uint32_t k = 0; k < t->n_in; k++)
-        for (int c = 0, n_c = term_is_derived(&t->in[k]) ? term_components(t->in[k].shape, dim) : 0; c < n_c; c++) {
+        for (int c = 0, n_c = jac[k] ? term_components(t->in[k].shape, dim) : 0; c < n_c; c++) {
             int status;
 
             for (uint32_t i = 0; i < ld; i++)
@@ -99,7 +99,7 @@ static int by_differences(const pf_term *t, const pf_batch *b, const double *con
         room += 2 * n;
     }
     for (uint32_t k = 0; k < t->n_in; k++) {
-        int n_c = term_is_derived(&t->in[k]) ? term_components(t->in[k].shape, dim) : 0;
+        int n_c = jac[k] ? term_components(t->in[k].shape, dim) : 0;
         double size = 0, h;
 
         for (uint32_t i = 0; i < (uint32_t)n_c * ld; i++)
@@ -141,6 +141,11 @@ int term_has_derivative(const pf_term *t, enum term_derivative how)
     if (unknowns && how == TERM_COMPLEX)
         return t->residual_c != NULL;
     return 1;
+}
+
+int term_derives_by_hand(const pf_term *t, enum term_derivative how)
+{
+    return t->jacobian && (how == TERM_AUTO || how == TERM_ANALYTIC);
 }
 
 int term_jacobian(const pf_term *t, enum term_derivative how, const pf_batch *b, const double *const *in,

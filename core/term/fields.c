@@ -25,8 +25,8 @@ int fields_add(field_list *l, int dim, const pf_field *f, const char *plugin, er
                 err, ERR_PLUGIN,
                 "field \"%s\": plugin \"%s\" declares it as %s of order %d, plugin \"%s\" as %s of order %d; "
                 "one of them needs another name for its field",
-                f->name, g->declared_by, g->shape == PF_VECTOR ? "vector" : "scalar", g->order, plugin,
-                f->shape == PF_VECTOR ? "vector" : "scalar", order);
+                f->name, g->declared_by, term_shape_name((uint32_t)g->shape), g->order, plugin,
+                term_shape_name(f->shape), order);
         if (!g->constrains)
             g->constrains = f->constrains;
         return 0;

@@ -3,6 +3,8 @@
  * What plugins may call: the report of a point that cannot be computed. */
 #include "term/term.h"
 
+#include "base/process.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -39,3 +41,27 @@ const pf_host term_host = {
     .version = PF_VERSION,
     .fail = host_fail,
 };
+
+int term_start(const term_plugin *p, const pf_term *t, void *params, int dim, int n_body, int unsteady, char *why,
+               size_t n)
+{
+    const pf_setup setup = {
+        .size = sizeof setup, .dim = (uint32_t)dim, .n_body = n_body, .unsteady = unsteady, .host = &term_host};
+    int status;
+
+    if (!t->init)
+        return 0;
+    process_enter(p->d.name, t->name, "init", -1);
+    status = t->init(params, &setup, why, n);
+    process_leave();
+    return status;
+}
+
+void term_end(const term_plugin *p, const pf_term *t, void *params)
+{
+    if (!t->done)
+        return;
+    process_enter(p->d.name, t->name, "done", -1);
+    t->done(params);
+    process_leave();
+}

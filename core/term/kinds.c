@@ -27,6 +27,48 @@ int term_components(uint32_t shape, int dim)
     }
 }
 
+const char *term_component(uint32_t shape, int n_comp, int k)
+{
+    static const char *const vector[] = {"x", "y", "z"};
+    static const char *const symmetric[2][6] = {{"xx", "xy", "yy"}, {"xx", "xy", "xz", "yy", "yz", "zz"}};
+    static const char *const tensor[2][9] = {{"xx", "xy", "yx", "yy"},
+                                             {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"}};
+
+    if (n_comp == 1)
+        return "";
+    return shape == PF_SYMMETRIC ? symmetric[n_comp > 3][k]
+           : shape == PF_TENSOR  ? tensor[n_comp > 4][k]
+                                 : vector[k];
+}
+
+int term_turns_sign(uint32_t shape, int n_comp, int k, int axis)
+{
+    const char *name = term_component(shape, n_comp, k), normal = "xyz"[axis];
+
+    if (shape == PF_VECTOR)
+        return k == axis;
+    return term_is_tensor(shape) && (name[0] == normal) != (name[1] == normal);
+}
+
+int term_is_tensor(uint32_t shape)
+{
+    return shape == PF_TENSOR || shape == PF_SYMMETRIC;
+}
+
+const char *term_shape_name(uint32_t shape)
+{
+    static const char *const name[] = {"",
+                                       "scalar",
+                                       "vector",
+                                       "tensor",
+                                       "spin",
+                                       "symmetric tensor",
+                                       "gradient of a symmetric tensor",
+                                       "gradient of a tensor"};
+
+    return shape <= PF_TENSOR_GRAD ? name[shape] : "";
+}
+
 int term_slot_field(const pf_slot *s)
 {
     return s->eval >= PF_VALUE && s->eval <= PF_OTHER && s->eval != PF_DATA && s->eval != PF_PROPERTY &&
@@ -52,6 +94,34 @@ enum term_kind term_kind(const pf_term *t)
                : t->out[o].eval == PF_SHOW || t->out[o].eval == PF_INTEGRAL ? TERM_SHOWS
                                                                             : kind;
     return kind;
+}
+
+const double *term_number(const term_use *u, const pf_slot *s)
+{
+    for (uint32_t i = 0; i < u->term->n_param; i++) {
+        const pf_param *q = &u->term->param[i];
+
+        if (strcmp(q->name, s->field) == 0 &&
+            ((q->type == PF_T_REAL && s->shape == PF_SCALAR) || (q->type == PF_T_VECTOR && s->shape == PF_VECTOR)))
+            return (const double *)(const void *)((const char *)u->params + q->offset);
+    }
+    return NULL;
+}
+
+int term_takes(const pf_term *t, const char *property)
+{
+    for (uint32_t k = 0; k < t->n_in; k++)
+        if (t->in[k].eval == PF_PROPERTY && strcmp(t->in[k].field, property) == 0)
+            return 1;
+    return 0;
+}
+
+int term_publishes(const pf_term *t, const char *property)
+{
+    for (uint32_t o = 0; o < t->n_out; o++)
+        if (t->out[o].eval == PF_PROPERTY && strcmp(t->out[o].field, property) == 0)
+            return (int)o;
+    return -1;
 }
 
 int term_stores(const pf_term *t, const char *field)

@@ -56,6 +56,13 @@ void registry_destroy(registry *r);
 int term_adopt(const pf_plugin *d, const char *path, arena *memory, term_plugin *out, error *err);
 
 int term_components(uint32_t shape, int dim);
+/* What tells component k of a field from the others: "", "x", "xy"; and a shape in words, "symmetric tensor". */
+const char *term_component(uint32_t shape, int n_comp, int k);
+const char *term_shape_name(uint32_t shape);
+int term_is_tensor(uint32_t shape);
+/* 1 if a mirror with this axis as its normal turns the sign of component k of a field: u_x, or T_xy, in the mirror
+ * x = 0.  On a plane of symmetry it is zero. */
+int term_turns_sign(uint32_t shape, int n_comp, int k, int axis);
 /* 1 if the slot holds a field of unknowns, of this instant or an earlier one. */
 int term_slot_field(const pf_slot *s);
 /* 1 if the slot is an unknown, so that a Jacobian block belongs to it; the same of a property too, by which a term
@@ -83,14 +90,22 @@ void term_defaults(const pf_term *t, void *params);
 
 enum term_derivative { TERM_AUTO, TERM_ANALYTIC, TERM_COMPLEX, TERM_FD };
 
+/* pf_term.init and done (host.c).  init: not 0 with why. */
+int term_start(const term_plugin *p, const pf_term *t, void *params, int dim, int n_body, int unsteady, char *why,
+               size_t n);
+void term_end(const term_plugin *p, const pf_term *t, void *params);
+
 /* Room that term_jacobian needs for ld lanes, in bytes. */
 size_t term_jacobian_room(const pf_term *t, int dim, uint32_t ld);
 /* 1 if the term has what this derivative comes from: a Jacobian by hand, a complex twin.  Differences and TERM_AUTO
  * are always possible; and a term without unknowns has nothing to derive. */
 int term_has_derivative(const pf_term *t, enum term_derivative how);
+/* 1 if it is the Jacobian by hand that term_jacobian calls. */
+int term_derives_by_hand(const pf_term *t, enum term_derivative how);
 /* d out / d in at every point, by hand, complex step or central differences (TERM_AUTO: the
- * first that the term has).  jac as in pf_jacobian_fn; room from term_jacobian_room, 64-byte aligned.
- * Returns an enum pf_status; PF_FAIL, with the reason in the report, also if the term does not have it. */
+ * first that the term has).  jac as in pf_jacobian_fn: where the blocks of an
+ * input are NULL (in those of the first output) there is no derivative by it; room from term_jacobian_room, 64-byte
+ * aligned. Returns an enum pf_status; PF_FAIL, with the reason in the report, also if the term does not have it. */
 int term_jacobian(const pf_term *t, enum term_derivative how, const pf_batch *b, const double *const *in,
                   double *const *jac, void *room);
 
@@ -102,7 +117,22 @@ typedef struct term_use {
     void *params;
     enum term_derivative how;
     const value *data[TERM_MAX_SLOTS]; /* for PF_DATA slots */
+    const value *inside;               /* acts where this is above 0; NULL: on all its points                 */
+    const char *label;                 /* `name` of the line, for messages and reports; NULL: it has none     */
+    int replaced;                      /* another term takes its place, or there is no use for it               */
+    const double *key[TERM_MAX_SLOTS]; /* for PF_BODY_KEY and PF_OTHER_KEY slots: [n_body][components] */
+    const struct term_use
+        *law[TERM_MAX_SLOTS]; /* for PF_PROPERTY inputs: who publishes it; NULL: see term_number */
+    uint32_t given, missing;  /* bit k: parameter k stands in the case; it had to, and does not */
 } term_use;
+
+/* The term's own parameter of the name and shape of a PF_PROPERTY input, which is its value where nobody publishes
+ * it; NULL: it has none. */
+const double *term_number(const term_use *u, const pf_slot *s);
+/* Whether a term takes this property. */
+int term_takes(const pf_term *t, const char *property);
+/* The output of a publisher that is this property; -1: it does not publish it. */
+int term_publishes(const pf_term *t, const char *property);
 
 /* --- fields: the unknowns that plugins declare (fields.c) --- */
 

@@ -49,6 +49,19 @@
         .type = PF_T_BOOL, .flags = PF_SHARED, .offset = offsetof(STRUCT, reduced_pressure)                        \
     }
 
+/* The same as properties at a point, for PF_IN: what a term publishes, or else the parameter of that name, which
+ * the term has to list, too. */
+#define PF_TAKES_DENSITY                                                                                           \
+    {                                                                                                              \
+        .name = "rho", .field = "density", .eval = PF_PROPERTY, .shape = PF_SCALAR, .unit = "kg/m^3",              \
+        .doc = "mass per volume", PF_NOT_NEGATIVE                                                                  \
+    }
+#define PF_TAKES_VISCOSITY                                                                                         \
+    {                                                                                                              \
+        .name = "mu", .field = "viscosity", .eval = PF_PROPERTY, .shape = PF_SCALAR, .unit = "Pa s",               \
+        .doc = "dynamic viscosity", .min = 1e-30, .max = 1e30                                                      \
+    }
+
 /* The struct of a term that has no parameters of its own.  A term lists those of its members that it reads. */
 typedef struct pf_fluid {
     double density;       /* rho, kg/m^3 */

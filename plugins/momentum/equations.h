@@ -8,21 +8,19 @@
 /* rho du/dt . v */
 static int F(inertia)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const pf_fluid *f = b->params;
-    const NUM *restrict u_t = in[0];
+    const NUM *restrict u_t = in[0], *restrict rho = in[1];
     NUM *restrict v = out[0];
 
     for (uint32_t a = 0; a < b->dim; a++)
         PF_LANES_OF (b, i)
-            v[a * LD + i] = f->density * u_t[a * LD + i];
+            v[a * LD + i] = rho[i] * u_t[a * LD + i];
     return PF_OK;
 }
 
 /* rho (u . grad) u . v */
 static int F(convection)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const pf_fluid *f = b->params;
-    const NUM *restrict u = in[0], *restrict grad_u = in[1];
+    const NUM *restrict u = in[0], *restrict grad_u = in[1], *restrict rho = in[2];
     NUM *restrict v = out[0];
     const uint32_t d = b->dim;
 
@@ -31,16 +29,15 @@ static int F(convection)(const pf_batch *b, const NUM *const *in, NUM *const *ou
             v[a * LD + i] = 0;
         for (uint32_t k = 0; k < d; k++)
             PF_LANES_OF (b, i)
-                v[a * LD + i] += f->density * u[k * LD + i] * grad_u[(a * d + k) * LD + i];
+                v[a * LD + i] += rho[i] * u[k * LD + i] * grad_u[(a * d + k) * LD + i];
     }
     return PF_OK;
 }
 
-/* (2 mu D(u) - p I) : grad v */
-static int F(stress)(const pf_batch *b, const NUM *const *in, NUM *const *out)
+/* 2 mu D(u) : grad v */
+static int F(viscous)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const pf_fluid *f = b->params;
-    const NUM *restrict grad_u = in[0], *restrict p = in[1];
+    const NUM *restrict grad_u = in[0], *restrict mu = in[1];
     NUM *restrict grad_v = out[0];
     const uint32_t d = b->dim;
 
@@ -48,8 +45,15 @@ static int F(stress)(const pf_batch *b, const NUM *const *in, NUM *const *out)
         for (uint32_t k = 0; k < d; k++)
             PF_LANES_OF (b, i)
                 grad_v[(a * d + k) * LD + i] =
-                    f->viscosity * (grad_u[(a * d + k) * LD + i] + grad_u[(k * d + a) * LD + i]) -
-                    (a == k ? p[i] : 0);
+                    mu[i] * (grad_u[(a * d + k) * LD + i] + grad_u[(k * d + a) * LD + i]);
+    return PF_OK;
+}
+
+/* -p div v */
+static int F(pressure_gradient)(const pf_batch *b, const NUM *const *in, NUM *const *out)
+{
+    PF_LANES_OF (b, i)
+        out[0][i] = -in[0][i];
     return PF_OK;
 }
 
@@ -57,12 +61,12 @@ static int F(stress)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 static int F(body_force)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const pf_fluid *f = b->params;
-    const NUM *restrict force = in[0];
+    const NUM *restrict force = in[0], *restrict rho = in[1];
     NUM *restrict v = out[0];
 
     for (uint32_t a = 0; a < b->dim; a++)
         PF_LANES_OF (b, i)
-            v[a * LD + i] = -((f->reduced_pressure ? 0 : f->density * f->gravity[a]) + force[a * LD + i]);
+            v[a * LD + i] = -((f->reduced_pressure ? 0 : rho[i] * f->gravity[a]) + force[a * LD + i]);
     return PF_OK;
 }
 
@@ -83,15 +87,15 @@ static int F(traction)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 static int F(pressure)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const pf_fluid *f = b->params;
-    const NUM *restrict pressure = in[0];
+    const NUM *restrict pressure = in[0], *restrict rho = in[1];
     NUM *restrict v = out[0];
 
     for (uint32_t a = 0; a < b->dim; a++)
         PF_LANES_OF (b, i) {
-            double hydrostatic = 0;
+            NUM hydrostatic = 0;
 
             for (uint32_t k = 0; k < b->dim; k++)
-                hydrostatic += f->density * f->gravity[k] * b->x[k * LD + i];
+                hydrostatic += rho[i] * f->gravity[k] * b->x[k * LD + i];
             v[a * LD + i] = (pressure[i] - (f->reduced_pressure ? hydrostatic : 0)) * b->normal[a * LD + i];
         }
     return PF_OK;
@@ -101,8 +105,7 @@ static int F(pressure)(const pf_batch *b, const NUM *const *in, NUM *const *out)
  * would bring */
 static int F(backflow)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
-    const pf_fluid *f = b->params;
-    const NUM *restrict u = in[0], *restrict beta = in[1];
+    const NUM *restrict u = in[0], *restrict beta = in[1], *restrict rho = in[2];
     NUM *restrict v = out[0];
 
     PF_LANES_OF (b, i) {
@@ -116,7 +119,7 @@ static int F(backflow)(const pf_batch *b, const NUM *const *in, NUM *const *out)
             inward += u[a * LD + i] * b->normal[a * LD + i];
         inward = creal(inward) < 0 ? inward : 0;
         for (uint32_t a = 0; a < b->dim; a++)
-            v[a * LD + i] = -0.5 * beta[i] * f->density * inward * u[a * LD + i];
+            v[a * LD + i] = -0.5 * beta[i] * rho[i] * inward * u[a * LD + i];
     }
     return PF_OK;
 }

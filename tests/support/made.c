@@ -89,7 +89,7 @@ const char *made_write(made *k, const char *folder, int told)
 
     snprintf(vtp, sizeof vtp, "%s/particles_00000.vtp", folder);
     snprintf(path, sizeof path, "%s/fields_00000.vtu", folder);
-    assert_int_equal(vtp_write(vtp, k->m.dim, k->bodies, k->n, &err), 0);
+    assert_int_equal(vtp_write(vtp, k->m.dim, k->bodies, k->n, NULL, 0, &err), 0);
     assert_int_equal(vtu_write(path, &k->s, (const int[]){0, 1}, 2, k->x, NAN, told ? &bodies : NULL, &err), 0);
     return path;
 }

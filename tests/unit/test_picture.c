@@ -37,7 +37,7 @@ static void draw(const char *path, int field, int normal, double at, drawn *d)
     d->view = (picture_view){
         .dim = d->v.dim, .across = {normal == 0, normal == 2 ? 1 : 2}, .normal = normal, .at = at, .near = 1e-9};
     assert_int_equal(bodies_read(path, &d->view, INFINITY, &d->bodies, &d->a, &err), 0);
-    d->f = (picture_field){.colour = &d->room, .component = field ? 3 : 0};
+    d->f = (picture_field){.colour = &d->room, .component = field ? PICTURE_MAGNITUDE : 0};
     assert_int_equal(extend_into_bodies(&d->v, &d->v.field[field], &d->room, &d->a, &err), 0);
     d->r = (picture_raster){.w = 300, .h = 300, .left = 0, .top = 1, .scale = {300, 300}, .n_value = 1};
     assert_int_equal(bodies_cover(&d->bodies, &d->r, &d->a, &err), 0);
