@@ -90,6 +90,7 @@ static const struct CMUnitTest tests[] = {
     LOADS("frozen_header_1_0_loads", "frozen_1_0.so"),
     LOADS("frozen_header_1_1_loads", "frozen_1_1.so"),
     LOADS("frozen_header_1_2_loads", "frozen_1_2.so"),
+    LOADS("frozen_header_1_3_loads_with_laplacian_and_metric", "frozen_1_3.so"),
     LOADS("laplacian_and_metric_of_1_3_pass", "supg.so"),
     CALL("they_are_described", "describe", "supg.so", "", EXIT_OK, "Laplacian of T, scalar",
          "; reads the metric of the element"),
@@ -216,11 +217,11 @@ static const struct CMUnitTest tests[] = {
 #ifdef HAVE_MOMENTUM
     /* the momentum plugin with one error in its source */
     TOLD(planted_sign, "WRONG  convection  d v / d u in 2D: sign: the block is minus the derivative"),
-    TOLD(planted_factor, "WRONG  stress  d grad_v / d grad_u in 2D: factor: the block is 2 times the derivative"),
+    TOLD(planted_factor, "WRONG  viscous  d grad_v / d grad_u in 2D: factor: the block is 2 times the derivative"),
     TOLD(planted_transpose, "WRONG  convection  d v / d grad_u in 2D: transpose: the two indices of grad_u"),
-    TOLD(planted_missing, "WRONG  stress  d grad_v / d p in 2D: missing: the block is zero"),
-    TOLD(planted_half, "WRONG  stress  d grad_v / d grad_u in 2D: transpose: ", "is missing"),
-    TOLD(planted_residual, "WRONG  stress  example \"grad u = (1 2; 4 -1)", "grad_v[0][1] is 12, expected 18"),
+    TOLD(planted_missing, "WRONG  pressure_gradient  d div_v / d p in 2D: missing: the block is zero"),
+    TOLD(planted_half, "WRONG  viscous  d grad_v / d grad_u in 2D: transpose: ", "is missing"),
+    TOLD(planted_residual, "WRONG  viscous  example \"grad u = (1 2; 4 -1)", "grad_v[0][1] is 12, expected 18"),
 
     /* in a run */
     RUN("a_sound_plugin_runs", sound, EXIT_OK, "observed order 2."),
