@@ -10,8 +10,8 @@
 
 enum { MOST_INT = 1000000000 };
 
-/* One parameter from a reader into the term's struct.  *status: as the readers return. */
-static int read_param(reader *r, const pf_param *q, int dim, void *params, int *status, error *err)
+/* One parameter from a reader into the struct of its term or solver.  *status: as the readers return. */
+int describe_read_param(reader *r, const pf_param *q, int dim, void *params, int *status, error *err)
 {
     const int bounded = q->min < q->max, unit = strcmp(q->unit, "1") != 0;
     char *at = (char *)params + q->offset, *doc;
@@ -68,9 +68,9 @@ static int read_params(description *d, reader *own, reader *fluid, term_use *u, 
         int status = 0;
 
         if (q->flags & PF_SHARED)
-            TRY(read_param(fluid, q, d->dim, u->params, &status, err));
+            TRY(describe_read_param(fluid, q, d->dim, u->params, &status, err));
         if (reader_has(own, q->name) || !status) /* the term's own line has the last word */
-            TRY(read_param(own, q, d->dim, u->params, &status, err));
+            TRY(describe_read_param(own, q, d->dim, u->params, &status, err));
         u->given |= status ? 1u << i : 0;
         if (status || !(q->flags & PF_REQUIRED))
             continue;
@@ -132,12 +132,12 @@ void describe_off_keys(description *d, reader *own, const term_plugin *plugin)
                 describe_misplaced(d, own, t->in[k].name, "(%s.%s) is a key of boundary \"...\" {}", name, t->name);
             else if (t->in[k].eval == PF_DATA)
                 describe_misplaced(d, own, t->in[k].name,
-                          "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name, t->name,
-                          name, t->name);
+                                   "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name,
+                                   t->name, name, t->name);
         for (uint32_t k = 0; k < t->n_param; k++)
             describe_misplaced(d, own, t->param[k].name,
-                      "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name, t->name, name,
-                      t->name);
+                               "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name,
+                               t->name, name, t->name);
     }
 }
 
