@@ -58,7 +58,7 @@ static void print_rest(char *output)
 {
     for (char *line = strtok(output, "\n"); line; line = strtok(NULL, "\n"))
         if (strncmp(line, "  ok", 4) != 0)
-            print_error("    %s\n", line);
+            print_error("#     %s\n", line);
 }
 
 static void planted_faults_are_found_and_named(void **state)
@@ -80,17 +80,17 @@ static void planted_faults_are_found_and_named(void **state)
             right = code == EXIT_PLUGIN;
             n++, found++;
             if (!right) {
-                print_error("%s: exit code %d\n", name, code);
+                print_error("# %s: exit code %d\n", name, code);
                 found--;
             }
         } else if (right && strncmp(line, "says ", 5) == 0 && !strstr(output, line + 5)) {
-            print_error("%s: plugflow test does not say\n    %s\n", name, line + 5);
+            print_error("# %s: plugflow test does not say\n#     %s\n", name, line + 5);
             print_rest(output);
             right = 0, found--;
         }
     }
     fclose(f);
-    print_message("%d of %d planted faults were found and named\n", found, n);
+    print_message("# %d of %d planted faults were found and named\n", found, n);
     assert_true(n >= LEAST);
     assert_int_equal(found, n);
 }
