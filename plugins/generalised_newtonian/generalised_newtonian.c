@@ -11,7 +11,6 @@
  */
 #include <plugflow/term.h>
 
-#define PF_SLOT_mu SCALAR, mu, "viscosity", PF_PROPERTY, .unit = "Pa s", .doc = "dynamic viscosity"
 
 #define KEYS                                                                                                       \
     CHOICE(law, "which law", "power_law", "carreau", "cross", "bingham"),                                          \
