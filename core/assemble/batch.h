@@ -177,19 +177,18 @@ void power_sum(const assembly *a, assembly_power *power);
 int show_batch(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch, workspace *w);
 int show_begin(const assembly *a, assembly_shown *to, error *err);
 /* kept.c: prepares a class that has memory; values along moving paths, once per placement; of an input of a batch,
- * [n_comp][n_q]; at a point of a cell, along the path through it. */
+ * [n_comp][n_q]. */
 int kept_place(assembly *a, assembly_class *c, error *err);
 int kept_update(const assembly *a, assembly_class *c, const assembly_state *s, error *err);
 void kept_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                  const plan_input *in, const workspace *w, v8 *out);
-void kept_along(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t cell,
-                const double *xi, const double *x, double *v);
-/* The same at all points of a cell that values are kept at; the polynomial nearest to values v[n_comp][n_q] at the
- * points of an item that is a part of a cell, `at` before being what it is where these leave it open. */
-void kept_along_cell(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t cell,
+/* Along the paths, at the points of an item's cell that values are kept at; the polynomial nearest to values
+ * v[n_comp][n_q] at the points of an item that is a part of a cell (counts, unless NULL: those that are of it),
+ * `at` before being what it is where these leave it open. */
+void kept_along_cell(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t item,
                      double *at);
-void kept_nearest(const assembly *a, const assembly_class *c, int64_t item, int n_comp, const double *v,
-                  double *at);
+void kept_nearest(const assembly *a, const assembly_class *c, int64_t item, const uint8_t *counts, int n_comp,
+                  const double *v, double *at);
 /* inside.c.  Whether a term acts at any point of the batch; of n rows [ld] what is left where it does not: zero. */
 int inside_any(const assembly_class *c, const plan_use *p, const workspace *w);
 void inside_mask(const assembly_class *c, const plan_use *p, const workspace *w, double *rows, int n);

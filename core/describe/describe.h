@@ -104,6 +104,7 @@ typedef struct output_spec {
     double every;        /* time between two files of fields */
     double tables_every; /* time between two rows of tables; 0: a row a step */
     int n_field, field[TERM_MAX_FIELDS];
+    uint32_t kept; /* bit f: memory f is written, too */
     int n_probe, n_line, n_force;
     probe_spec probe[DESCRIBE_MAX_PROBES];
     line_spec line[DESCRIBE_MAX_PROBES];

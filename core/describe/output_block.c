@@ -51,6 +51,7 @@ static void read_fields(description *d, registry *plugins, reader *r)
             o->field[o->n_field++] = f;
     for (int f = 0; status <= 0 && f < d->shown_fields.n; f++)
         o->shown[o->n_shown++] = f;
+    o->kept = status <= 0 ? ~0u : 0;
     for (int i = 0; status > 0 && i < n; i++) {
         int f = fields_find(&d->fields, list[i]), shown = fields_find(&d->shown_fields, list[i]), twice = 0;
 
@@ -58,6 +59,8 @@ static void read_fields(description *d, registry *plugins, reader *r)
             twice |= strcmp(list[k], list[i]) == 0;
         if (twice)
             case_wrong(d->c, r->b, "fields", "output: fields: \"%s\" stands there twice", list[i]);
+        else if (fields_find(&d->kept, list[i]) >= 0)
+            o->kept |= 1u << fields_find(&d->kept, list[i]);
         else if (f >= 0 && d->fields.f[f].support == PF_ON_MESH)
             o->field[o->n_field++] = f;
         else if (shown >= 0)

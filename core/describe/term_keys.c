@@ -132,12 +132,12 @@ void describe_off_keys(description *d, reader *own, const term_plugin *plugin)
                 describe_misplaced(d, own, t->in[k].name, "(%s.%s) is a key of boundary \"...\" {}", name, t->name);
             else if (t->in[k].eval == PF_DATA)
                 describe_misplaced(d, own, t->in[k].name,
-                          "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name, t->name,
-                          name, t->name);
+                                   "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name,
+                                   t->name, name, t->name);
         for (uint32_t k = 0; k < t->n_param; k++)
             describe_misplaced(d, own, t->param[k].name,
-                      "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name, t->name, name,
-                      t->name);
+                               "belongs to %s.%s, which is off here; term \"%s.%s\" {} switches it on", name,
+                               t->name, name, t->name);
     }
 }
 

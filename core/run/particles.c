@@ -23,16 +23,17 @@ enum { COLUMNS_2D = 14, COLUMNS_3D = 25, MOST_SHOWN = 192 };
 
 int particles_plan(run *r, error *err)
 {
-    char path[4600], name[OFF_MESH_MOST][OFF_MESH_NAME], own[MOST_SHOWN][96];
-    const char *column[COLUMNS_3D + OFF_MESH_MOST + MOST_SHOWN], *unit[MOST_SHOWN];
+    char path[4600], name[2 * OFF_MESH_MOST][OFF_MESH_NAME], own[MOST_SHOWN][96];
+    const char *column[COLUMNS_3D + 2 * OFF_MESH_MOST + MOST_SHOWN], *unit[MOST_SHOWN];
     const int dim = r->p->description.dim, n = dim == 2 ? COLUMNS_2D : COLUMNS_3D;
     int more, n_shown;
 
     if (r->p->bodies.n == 0)
         return 0;
-    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D + OFF_MESH_MOST + MOST_SHOWN, err);
+    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D + 2 * OFF_MESH_MOST + MOST_SHOWN, err);
     memcpy(column, dim == 2 ? columns_2d : columns_3d, (size_t)n * sizeof *column);
     more = off_mesh_columns(r, PF_ON_PARTICLE, name);
+    more += kept_columns(r, name + more);
     for (int i = 0; i < more; i++)
         column[n + i] = name[i];
     n_shown = showing_body_columns(r, MOST_SHOWN, own, unit);
@@ -118,6 +119,7 @@ int particles_write(run *r, double t, error *err)
             *at++ = r->before_steps ? NAN : u >= 0 ? -contact[u + i] : 0;
         *at++ = round(active[k]);
         at = off_mesh_values(r, PF_ON_PARTICLE, space_body_carrier(&p->space, k), at);
+        at = kept_of_body(r, k, at);
         TRY(showing_body_row(r, k, at, err));
         TRY(table_add(&r->particles, row, err));
     }

@@ -138,6 +138,13 @@ static int plan_probes(run *r, columns *c, text *units, error *err)
             if (name)
                 output_components(&shown[f], prefix, name);
         }
+        for (int f = 0; f < p->space.kept.n; f++) {
+            const field_spec *g = &p->space.kept.field[f];
+
+            name = g->support == PF_AT_POINTS ? more(c, g->n_comp, g->unit) : NULL;
+            if (name)
+                output_components(g, prefix, name);
+        }
         name = p->bodies.n ? more(c, 1, "1") : NULL;
         if (name)
             snprintf(*name, sizeof *name, "%sbody", prefix);
@@ -252,12 +259,16 @@ static int add_probes(run *r, double t, double *row, error *err)
             if (!output_has_columns(&p->space.field[f]))
                 continue;
             locate_value(&p->space, &r->probe_at[i], f, r->shown, at, NULL);
-            if (in)
-                inside_value(r, in, f, o->probe[i].x, at);
+            inside_value(r, in, f, o->probe[i].x, at);
             at += p->space.field[f].n_comp;
         }
         for (int f = 0; f < n_shown; at += shown[f++].n_comp)
             showing_value(r, f, &r->probe_at[i], in, at);
+        for (int f = 0; f < p->space.kept.n; f++)
+            if (p->space.kept.field[f].support == PF_AT_POINTS) {
+                kept_value(&p->space.kept, f, p->state.kept, r->probe_at[i].cell, r->probe_at[i].xi, at);
+                at += p->space.kept.field[f].n_comp;
+            }
         if (p->bodies.n)
             *at++ = in ? in->body : -1;
     }

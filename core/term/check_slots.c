@@ -51,6 +51,8 @@ static int check_special(const pf_slot *slot, uint32_t where, int is_out, const 
     if (slot->eval == PF_SHOW && where != PF_CELL && where != PF_FLUID && where != PF_SOLID)
         return check_wrong(err, s, "slot \"%s\": a field can be shown of points in cells, not of %s points",
                            slot->name, term_where_name(where));
+    if ((key || slot->eval == PF_OTHER_KEY) && slot->shape != PF_SCALAR && slot->shape != PF_VECTOR)
+        return check_wrong(err, s, "slot \"%s\": a key of bodies is PF_SCALAR or PF_VECTOR", slot->name);
     if ((is_out || key) && (!slot->unit || !slot->doc))
         return check_wrong(err, s, "slot \"%s\" lacks a unit (\"1\" if it has none) or a line of doc", slot->name);
     return 0;

@@ -4,7 +4,8 @@
  *
  *     by hand          the term's own jacobian()
  *     complex step     Im f(x + i h) / h,  h = 1e-100: exact to round-off
- *     differences      (f(x + h) - f(x - h)) / 2h,  h = eps^(1/3) |x|max: about ten digits     */
+ *     differences      (f(x + h) - f(x - h)) / 2h,  h = eps^(1/3) |x|max: about ten digits; of a linear term any h
+ */
 #include "term/term.h"
 
 #include <complex.h>
@@ -104,7 +105,8 @@ static int by_differences(const pf_term *t, const pf_batch *b, const double *con
 
         for (uint32_t i = 0; i < (uint32_t)n_c * ld; i++)
             size = fmax(size, fabs(in[k][i]));
-        h = cbrt(DBL_EPSILON) * (size > 0 ? size : 1);
+        h = t->flags & PF_LINEAR ? fmax(size, 1) /* any step is exact; one of a value that is round-off is not */
+                                 : cbrt(DBL_EPSILON) * (size > 0 ? size : 1);
         for (int c = 0; c < n_c; c++) {
             double *x = zk[k] + (uint32_t)c * ld;
             const double *x0 = in[k] + (uint32_t)c * ld;
