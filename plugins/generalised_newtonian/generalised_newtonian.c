@@ -11,7 +11,6 @@
  */
 #include <plugflow/term.h>
 
-
 #define KEYS                                                                                                       \
     CHOICE(law, "which law", "power_law", "carreau", "cross", "bingham"),                                          \
         REAL(consistency, "Pa s^n", "K of the power law", .min = 0, .max = 1e30),                                  \
