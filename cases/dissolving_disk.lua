@@ -33,6 +33,6 @@ particle { shape = disk { radius = a }, density = 1, at = at, motion = "fixed" }
 output { forces = {"left", "right", "bottom", "top"} }
 results(function(r)
   local sum = 0
-  for _, side in ipairs {"left", "right", "bottom", "top"} do sum = sum + r.last[side .. ".rate"] end
+  for _, side in ipairs {"left", "right", "bottom", "top"} do sum = sum + r.last[side .. ".flow"] end
   return { released = sum / (2 * math.pi * a * q) }
 end)

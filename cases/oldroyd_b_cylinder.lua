@@ -1,6 +1,6 @@
 -- Slow flow of an Oldroyd-B fluid round a cylinder that blocks half of a channel; upper half, radius 1, mean velocity
 -- 1, total viscosity 1, of which 0.59 is the solvent's.  Wi = lambda U / R.  Expect the drag coefficient
--- F / ((mu + mu_p) U), Hulsen, Fattal and Kupferman 2005: Wi = 0.1 130.36, 0.3 123.19, 0.5 118.83, 0.6 117.78, 0.7 117.32.
+-- F / ((mu + mu_p) U), Hulsen, Fattal and Kupferman 2005: Wi = 0.1 130.36, 0.5 118.83, 0.6 117.78, 0.7 117.32.
 case "Oldroyd-B fluid round a confined cylinder"
 
 local wi = param("wi", 0.5, "Weissenberg number")

@@ -14,7 +14,11 @@ fluid { density = 1, viscosity = mu }
 
 term "continuity" {}
 term "momentum" { force = {force, 0} }
-term "porous" { inverse_permeability = function(x, y) return y > h and 1 / K or 0 end }
+if param("parts", false, "the medium is the part of the domain where its term acts") then
+  term "porous" { inside = function(x, y) return y > h end, inverse_permeability = 1 / K }
+else
+  term "porous" { inverse_permeability = function(x, y) return y > h and 1 / K or 0 end }
+end
 
 boundary { periodic = {"left", "right"} }
 boundary "*" { u = {0, 0} }

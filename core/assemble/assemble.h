@@ -84,10 +84,13 @@ typedef struct moving_frame {
     void *ctx;
     /* At point x of a cell: w [dim]; history of each such field, one after the other.  0: w = 0. */
     int (*at)(void *ctx, int64_t cell, const double *x, double *w, double *history);
-    /* Where the path through x was at the end of the last step: the cell and the place in it.  outside: x is meant
-     * as a point of the fluid, also where a body covers it.  0: here. */
-    int (*before)(void *ctx, int64_t cell, const double *x, int outside, located *then);
+    /* Where the point of this body (-1: of the fluid) that is at x now was at the end of the last step: the cell
+     * and the place in it.  0: here.  BEFORE_BESIDE: x is not of the body (the fluid), what is beside it was there.
+     */
+    int (*before)(void *ctx, int64_t cell, const double *x, int body, located *then);
 } moving_frame;
+
+enum { BEFORE_MOVED = 1, BEFORE_BESIDE = 2 };
 
 /* One distinct quantity at the points: (field, eval), data of one use, a key of the bodies, or a property. */
 typedef struct plan_input {

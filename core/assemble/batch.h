@@ -177,19 +177,18 @@ void power_sum(const assembly *a, assembly_power *power);
 int show_batch(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch, workspace *w);
 int show_begin(const assembly *a, assembly_shown *to, error *err);
 /* kept.c: prepares a class that has memory; values along moving paths, once per placement; of an input of a batch,
- * [n_comp][n_q]; at a point of a cell, along the path through it. */
+ * [n_comp][n_q]. */
 int kept_place(assembly *a, assembly_class *c, error *err);
 int kept_update(const assembly *a, assembly_class *c, const assembly_state *s, error *err);
 void kept_values(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                  const plan_input *in, const workspace *w, v8 *out);
-void kept_along(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t cell,
-                const double *xi, const double *x, double *v);
-/* The same at all points of a cell that values are kept at; the polynomial nearest to values v[n_comp][n_q] at the
- * points of an item that is a part of a cell, `at` before being what it is where these leave it open. */
-void kept_along_cell(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t cell,
+/* Along the paths, at the points of an item's cell that values are kept at; the polynomial nearest to values
+ * v[n_comp][n_q] at the points of an item that is a part of a cell (counts, unless NULL: those that are of it),
+ * `at` before being what it is where these leave it open. */
+void kept_along_cell(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t item,
                      double *at);
-void kept_nearest(const assembly *a, const assembly_class *c, int64_t item, int n_comp, const double *v,
-                  double *at);
+void kept_nearest(const assembly *a, const assembly_class *c, int64_t item, const uint8_t *counts, int n_comp,
+                  const double *v, double *at);
 /* inside.c.  Whether a term acts at any point of the batch; of n rows [ld] what is left where it does not: zero. */
 int inside_any(const assembly_class *c, const plan_use *p, const workspace *w);
 void inside_mask(const assembly_class *c, const plan_use *p, const workspace *w, double *rows, int n);
@@ -232,7 +231,7 @@ static inline uint32_t assemble_eval(const assembly_class *c, enum basis_kind ki
 {
     static const uint32_t eval[BASIS_KINDS] = {PF_VALUE, PF_GRAD, PF_LAPLACE, PF_VALUE, PF_OTHER};
 
-    return kind == BASIS_VALUE && c->where == PF_PAIR ? PF_DEFECT : eval[kind];
+    return kind == BASIS_VALUE && (c->where == PF_PAIR || c->where == PF_CUT) ? PF_DEFECT : eval[kind];
 }
 
 static inline int assemble_padded(int n)
@@ -247,7 +246,9 @@ static inline int assemble_local(const space *s, int field, int i)
 
     if (s->field[field].order)
         return s->field[field].order == 2 ? i : type->vertex[i];
-    return type->n_node + (s->field[field].support == PF_ON_PARTICLE ? s->any_problem : 0);
+    if (space_of_cells(&s->field[field]))
+        return type->n_node + s->any_problem;
+    return type->n_node + (s->field[field].support == PF_ON_PARTICLE ? s->any_problem + s->any_cell : 0);
 }
 
 /* The same on an item of a class: a pair lists two bodies, a bad cell and its root the nodes of both. */

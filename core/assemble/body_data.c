@@ -18,10 +18,17 @@ int body_data_room(size_t n_q, size_t dim, workspace *w, error *err)
     const struct {
         v8 **to;
         size_t n;
-    } list[] = {{&w->body.centre, dim},        {&w->body.axes, dim * dim},    {&w->body.volume, 1},
-                {&w->body.mass, 1},            {&w->body.inertia, spin * spin}, {&w->body.fluid_force, dim},
-                {&w->body.fluid_torque, spin}, {&w->body.other_centre, dim},  {&w->body.other_axes, dim * dim},
-                {&w->body.other_arm, dim},     {&w->body.curvature, 1}};
+    } list[] = {{&w->body.centre, dim},
+                {&w->body.axes, dim * dim},
+                {&w->body.volume, 1},
+                {&w->body.mass, 1},
+                {&w->body.inertia, spin * spin},
+                {&w->body.fluid_force, dim},
+                {&w->body.fluid_torque, spin},
+                {&w->body.other_centre, dim},
+                {&w->body.other_axes, dim * dim},
+                {&w->body.other_arm, dim},
+                {&w->body.curvature, 1}};
 
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         ARENA_NEW(&w->memory, *list[i].to, list[i].n * n_q, err);

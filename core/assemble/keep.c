@@ -38,8 +38,8 @@ static void store(const assembly *a, const assembly_class *c, const assembly_sta
             v[i] = out[i][l];
         if (!c->kept_weight)
             continue;
-        kept_along_cell(a, c, s, f, c->cell[item], at);
-        kept_nearest(a, c, item, n_comp, v, at);
+        kept_along_cell(a, c, s, f, item, at);
+        kept_nearest(a, c, item, NULL, n_comp, v, at);
         memcpy(kept + kept_at(k, f, c->cell[item]), at, (size_t)(n_comp * k->rule.n) * sizeof *at);
     }
 }
@@ -77,8 +77,14 @@ static int keep_batch(const assembly *a, const assembly_class *c, const assembly
                       workspace *w, double *kept)
 {
     pf_batch b = evaluate_batch(c, s, a->space->mesh->dim, w);
+    int on = !c->off;
 
+    for (int64_t i = c->batch[batch]; i < c->batch[batch + 1]; i++)
+        on |= c->off && !c->off[c->cell[i]];
+    if (!on)
+        return 0;
     geometry_points(a, c, batch, w);
+    body_data_take(a, c, s, batch, w);
     inputs_values(a, c, s, batch, w);
     TRY(properties_evaluate(c, batch, 0, 1, &b, w));
     for (int u = 0; u < c->n_use; u++)
@@ -93,6 +99,7 @@ static int keep_class(assembly *a, assembly_class *c, const assembly_state *s, d
     const int n = lua || c->where == PF_SOLID ? 1 : a->n_thread; /* two bodies may have one cell */
 
     TRY(inputs_functions(a, c, &a->work[0], s->t, err));
+    TRY(walls_update(a, c, err));
     TRY(history_update(a, c, s->frame, err));
     TRY(kept_update(a, c, s, err));
     for (int k = 0; k < a->n_thread; k++)

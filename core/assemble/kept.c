@@ -10,8 +10,9 @@
 int kept_place(assembly *a, assembly_class *c, error *err)
 {
     const kept_fields *k = &a->space->kept;
+    const int part = c->follows && (c->where == PF_FLUID || c->where == PF_SOLID);
 
-    if (c->where == PF_PARTICLE || !c->follows) /* bodies; the points of whole cells are those of the memory */
+    if (!part) /* the points of whole cells are those of the memory; others are found one by one */
         return 0;
     ARENA_NEW(&a->memory, c->kept_weight, c->n_q * k->rule.n, err);
     for (int q = 0; q < c->n_q; q++)
@@ -19,21 +20,46 @@ int kept_place(assembly *a, assembly_class *c, error *err)
     return 0;
 }
 
-void kept_along(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t cell,
-                const double *xi, const double *x, double *v)
+/* Whether the points of a class are those that memory has values at. */
+static int at_own_points(const assembly_class *c)
 {
-    located then;
+    return c->where == PF_CELL || (c->where == PF_FLUID && !c->follows);
+}
 
-    if (s->frame && s->frame->before(s->frame->ctx, cell, x, c->where == PF_FLUID, &then))
+/* Point q of an item, in its cell. */
+static const double *place(const assembly_class *c, int64_t item, int q)
+{
+    if (c->where == PF_SURFACE)
+        return c->ref[(int64_t)c->source[item] * c->n_q + q];
+    return c->rule[c->where == PF_FACET ? c->facet[item] : 0].x[q];
+}
+
+/* The body that an item is a part of, or -1: it is fluid. */
+static int body_of(const assembly *a, const assembly_class *c, int64_t item)
+{
+    return c->where == PF_SOLID ? a->space->attached_particle[a->bodies->solid[c->source[item]]] : -1;
+}
+
+/* At point x of an item's cell, along the path through it; 0: beside it, as x is no part of the item. */
+static int along(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t item,
+                 const double *xi, const double *x, double *v)
+{
+    const int32_t cell = c->cell[item];
+    located then;
+    int how = s->frame ? s->frame->before(s->frame->ctx, cell, x, body_of(a, c, item), &then) : 0;
+
+    if (how)
         kept_value(&a->space->kept, f, s->kept, then.cell, then.xi, v);
     else
         kept_value(&a->space->kept, f, s->kept, cell, xi, v);
+    return how != BEFORE_BESIDE;
 }
 
-void kept_along_cell(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t cell,
+void kept_along_cell(const assembly *a, const assembly_class *c, const assembly_state *s, int f, int64_t item,
                      double *at)
 {
     const kept_fields *k = &a->space->kept;
+    const int32_t cell = c->cell[item];
 
     if (!s->frame) {
         memcpy(at, s->kept + kept_at(k, f, cell), (size_t)(k->field[f].n_comp * k->rule.n) * sizeof *at);
@@ -43,13 +69,14 @@ void kept_along_cell(const assembly *a, const assembly_class *c, const assembly_
         double x[3] = {0}, j[3][3], v[VALUE_MAX];
 
         mesh_place(k->mesh, cell, k->rule.x[p], x, j);
-        kept_along(a, c, s, f, cell, k->rule.x[p], x, v);
+        along(a, c, s, f, item, k->rule.x[p], x, v);
         for (int i = 0; i < k->field[f].n_comp; i++)
             at[i * k->rule.n + p] = v[i];
     }
 }
 
-void kept_nearest(const assembly *a, const assembly_class *c, int64_t item, int n_comp, const double *v, double *at)
+void kept_nearest(const assembly *a, const assembly_class *c, int64_t item, const uint8_t *counts, int n_comp,
+                  const double *v, double *at)
 {
     const int nq = c->n_q;
     const double *weight = c->weight + (int64_t)c->source[item] * nq;
@@ -59,7 +86,7 @@ void kept_nearest(const assembly *a, const assembly_class *c, int64_t item, int 
         most = weight[q] > most ? weight[q] : most;
     for (int q = 0; q < nq;
          q++) /* squares: points outside of the part that counts have small weights of either sign */
-        w[q] = weight[q] > 0 ? weight[q] * weight[q] / most : 0;
+        w[q] = weight[q] > 0 && (!counts || counts[q]) ? weight[q] * weight[q] / most : 0;
     kept_fit(&a->space->kept, nq, c->kept_weight, w, n_comp, v, at);
 }
 
@@ -71,20 +98,21 @@ static void take_item(const assembly *a, const assembly_class *c, const assembly
     const kept_fields *k = &a->space->kept;
     const int nq = c->n_q, dim = a->space->mesh->dim, np = k->rule.n;
     double at[VALUE_MAX * KEPT_MAX_POINTS], one[VALUE_MAX];
+    uint8_t counts[FE_MAX_POINTS];
 
     for (int q = 0; q < nq; q++) {
         double x[3] = {0};
 
         for (int d = 0; d < dim; d++)
             x[d] = w->x[d * nq + q][lane];
-        kept_along(a, c, s, in->kept, c->cell[item], c->rule[0].x[q], x, one);
+        counts[q] = (uint8_t)along(a, c, s, in->kept, item, place(c, item, q), x, one);
         for (int i = 0; i < in->n_comp; i++)
             v[i * nq + q] = one[i];
     }
     if (!c->kept_weight)
         return;
-    kept_along_cell(a, c, s, in->kept, c->cell[item], at);
-    kept_nearest(a, c, item, in->n_comp, v, at);
+    kept_along_cell(a, c, s, in->kept, item, at);
+    kept_nearest(a, c, item, counts, in->n_comp, v, at);
     for (int q = 0; q < nq; q++)
         for (int i = 0; i < in->n_comp; i++) {
             v[i * nq + q] = 0;
@@ -118,8 +146,8 @@ int kept_update(const assembly *a, assembly_class *c, const assembly_state *s, e
     const moving_frame *f = s->frame;
     int64_t n = 0, n_comp = 0;
 
-    if (!f || !s->kept || !c->any_kept || (c->where != PF_FLUID && c->where != PF_SOLID) ||
-        c->kept_stamp == f->stamp)
+    if (!f || !s->kept || !c->any_kept || c->where == PF_CELL || c->where == PF_FACET || c->where == PF_PARTICLE ||
+        c->where == PF_PAIR || c->kept_stamp == f->stamp)
         return 0;
     for (int i = 0; i < c->n_input; i++)
         n_comp += c->input[i].kept >= 0 ? c->input[i].n_comp : 0;
@@ -161,27 +189,29 @@ void kept_values(const assembly *a, const assembly_class *c, const assembly_stat
 {
     const kept_fields *k = &a->space->kept;
     const int nq = c->n_q, np = k->rule.n, of_body = k->field[in->kept].support == PF_KEPT_BY_PARTICLE;
-    const v8 *along = along_paths(c, s, batch, in);
+    const v8 *table = along_paths(c, s, batch, in);
 
-    if (along || !s->kept) {
-        if (along)
-            memcpy(out, along, (size_t)(in->n_comp * nq) * sizeof *out);
+    if (table || !s->kept) {
+        if (table)
+            memcpy(out, table, (size_t)(in->n_comp * nq) * sizeof *out);
         else
             memset(out, 0, (size_t)(in->n_comp * nq) * sizeof *out);
         return;
     }
-    for (int l = 0; l < 8; l++) {
-        const double *v = of_body ? NULL : s->kept + kept_at(k, in->kept, c->cell[assemble_item(c, batch, l)]);
+    for (int l = 0; l < 8; l++)
+        for (int q = 0; q < nq; q++) {
+            const int64_t item = assemble_item(c, batch, l);
+            const double *v = s->kept + kept_at(k, in->kept, of_body ? w->id[q * 8 + l] : c->cell[item]);
+            double one[VALUE_MAX];
 
-        for (int i = 0; i < in->n_comp; i++)
-            for (int q = 0; q < nq; q++) {
-                double sum = 0;
+            if (!of_body && !at_own_points(c) && !c->kept_weight)
+                kept_value(k, in->kept, s->kept, c->cell[item], place(c, item, q), one);
+            for (int i = 0; i < in->n_comp; i++) {
+                double sum = of_body ? v[i] : at_own_points(c) ? v[i * np + q] : c->kept_weight ? 0 : one[i];
 
-                for (int p = 0; c->kept_weight && p < np; p++)
+                for (int p = 0; !of_body && c->kept_weight && p < np; p++)
                     sum += c->kept_weight[q * np + p] * v[i * np + p];
-                out[i * nq + q][l] = of_body          ? s->kept[kept_at(k, in->kept, w->id[q * 8 + l]) + i]
-                                     : c->kept_weight ? sum
-                                                      : v[i * np + q];
+                out[i * nq + q][l] = sum;
             }
-    }
+        }
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Which pairs a term acts on: those with a gap below its own reach.  Pairs are looked for as far as any term asks. */
+ * Which pairs a term acts on: those with a gap below its own reach.  Pairs are looked for as far as any term asks.
+ */
 #include "assemble/batch.h"
 
 int reach_of(const assembly *a, const assembly_class *c, const term_use *use, const workspace *w, int *in)

@@ -23,8 +23,11 @@ static void find_fields(bodies *b)
                 elsewhere[f] |= where == PF_CELL || where == PF_SOLID;
             }
         }
-    for (int i = 0; i < d->n_use; i++)
-        b->is_curved |= d->use[i].where == PF_SURFACE && d->use[i].plugin->d.min_minor >= 4;
+    for (int i = 0; i < d->n_use + d->shown.n; i++) {
+        const term_use *u = i < d->n_use ? &d->use[i] : &d->shown.use[i - d->n_use];
+
+        b->is_curved |= u->where == PF_SURFACE && u->plugin->d.min_minor >= 4;
+    }
     for (int f = 0; f < b->space->n_field; f++) {
         b->fluid_only[f] = in_fluid[f] && !elsewhere[f];
         b->any_fluid_only |= b->fluid_only[f];
@@ -89,10 +92,15 @@ static int warn_resolution(const bodies *b, error *err)
 /* Whether some term reads distances from walls. */
 static int wants_walls(const description *d)
 {
+    int wants = 0;
+
     for (int i = 0; i < d->n_use; i++)
-        if (d->use[i].term->flags & PF_WALL_DISTANCE)
-            return 1;
-    return 0;
+        wants |= (d->use[i].term->flags & PF_WALL_DISTANCE) != 0;
+    for (int i = 0; i < d->law.n; i++)
+        wants |= (d->law.use[i].term->flags & PF_WALL_DISTANCE) != 0;
+    for (int i = 0; i < d->shown.n; i++)
+        wants |= (d->shown.use[i].term->flags & PF_WALL_DISTANCE) != 0;
+    return wants;
 }
 
 int bodies_create(bodies *b, const description *d, space *s, const cell_grid *grid, const conditions *c,

@@ -33,10 +33,10 @@ enum cover {
 /* Pieces of surface in cells, SURFACE_POINTS points each (see body_points). */
 typedef struct surface_list {
     int64_t n, room;
-    int n_last;  /* points of the last, unfinished piece */
-    int32_t now; /* attached pair that is being cut      */
+    int n_last;          /* points of the last, unfinished piece */
+    int32_t now;         /* attached pair that is being cut      */
     const solid *curved; /* its body, where some term may read the curvature of the surface; NULL: none does */
-    int failed;  /* memory ran out                       */
+    int failed;          /* memory ran out                       */
     int32_t *attached;
     double (*ref)[SURFACE_POINTS][3], (*normal)[SURFACE_POINTS][3], (*weight)[SURFACE_POINTS],
         (*curvature)[SURFACE_POINTS];
@@ -101,7 +101,8 @@ typedef struct moving_body {
     solid here;
     int moves, round;
     double way[PATHS_MAX_LEVELS][3];     /* of its centre since then */
-    double then[PATHS_MAX_LEVELS][3][3]; /* its axes then            */
+    double then[PATHS_MAX_LEVELS][3][3]; /* its axes then; those of now if it is round: paths do not turn with it */
+    double turned[3][3];                 /* its axes at the latest level */
 } moving_body;
 
 typedef struct body_paths {
@@ -289,7 +290,7 @@ const moving_body *paths_below(const body_paths *t, const double *x);
 /* Lists which bodies may matter where, for a reach of at most this. */
 void paths_list(body_paths *t, int dim, double reach);
 int paths_at(void *bodies_, int64_t cell, const double *x, double *w, double *history); /* see moving_frame */
-int paths_before(void *bodies_, int64_t cell, const double *x, int outside, located *then);
+int paths_before(void *bodies_, int64_t cell, const double *x, int body, located *then);
 void placements_destroy(bodies *b);
 
 #endif

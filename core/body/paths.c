@@ -26,9 +26,9 @@ static located locate(const bodies *b, const double *x)
     return locate_point(b->space->mesh, b->grid, at);
 }
 
-/* Moves a point below the surface to where the level's gradient leads to, and OUT cells out from there; 0, and the
- * point stays, if there is no surface within two cells. */
-static int find_surface(const moving_body *b, double h, double *x)
+/* Moves a point to where the level's gradient leads to, the surface, and OUT cells out from there (side -1: in); 0,
+ * and the point stays, if there is no surface within two cells. */
+static int find_surface(const moving_body *b, double h, int side, double *x)
 {
     double at[3] = {x[0], x[1], x[2]};
 
@@ -40,7 +40,7 @@ static int find_surface(const moving_body *b, double h, double *x)
         for (int k = 0; k < b->here.shape->dim; k++)
             size += g[k] * g[k];
         for (int k = 0; k < b->here.shape->dim; k++) {
-            at[k] += found ? OUT * h * g[k] / sqrt(size) : -level * g[k] / size;
+            at[k] += found ? side * OUT * h * g[k] / sqrt(size) : -level * g[k] / size;
             way += (at[k] - x[k]) * (at[k] - x[k]);
         }
         if (!(size > 0) || !(way < 4 * h * h))
@@ -115,7 +115,7 @@ static void continue_fluid(const bodies *p, const moving_body *b, const double *
         if (sqrt(far) < RESTS * h && !was_covered(p->space->mesh, b, l, &foot[l], at))
             continue;
         if (found < 0)
-            found = find_surface(b, h, from);
+            found = find_surface(b, h, 1, from);
         if (!found)
             return;
         paths_travelled(b, l, from, d);
@@ -182,7 +182,44 @@ int paths_at(void *bodies_, int64_t cell, const double *x, double *w, double *hi
     return 1;
 }
 
-int paths_before(void *bodies_, int64_t cell, const double *x, int outside, located *then)
+/* The image of a body that is nearest to x. */
+static const moving_body *image_near(const body_paths *t, int n_image, int body, const double *x)
+{
+    const moving_body *nearest = NULL;
+    double least = INFINITY;
+
+    for (int j = 0; j < n_image; j++) {
+        const moving_body *b = &t->body[body * n_image + j];
+        double d = 0;
+
+        for (int k = 0; k < 3; k++)
+            d += (x[k] - b->here.at.x[k]) * (x[k] - b->here.at.x[k]);
+        nearest = d < least ? b : nearest;
+        least = fmin(d, least);
+    }
+    return nearest;
+}
+
+/* Where the point of a body that is at x now was. */
+static int inside_before(const bodies *p, const moving_body *b, double h, const double *x, located *then)
+{
+    double own[3], at[3] = {0}, from[3] = {x[0], x[1], x[2]};
+    int beside;
+
+    if (!b->moves)
+        return 0;
+    beside = solid_level(&b->here, x) > 0 && find_surface(b, h, -1, from);
+    solid_own(&b->here, from, own);
+    for (int i = 0; i < p->space->mesh->dim; i++) {
+        at[i] = b->here.at.x[i] - b->way[0][i];
+        for (int k = 0; k < p->space->mesh->dim; k++)
+            at[i] += b->turned[i][k] * own[k];
+    }
+    *then = locate(p, at);
+    return then->cell < 0 ? 0 : beside ? BEFORE_BESIDE : BEFORE_MOVED;
+}
+
+int paths_before(void *bodies_, int64_t cell, const double *x, int body, located *then)
 {
     const bodies *p = bodies_;
     const body_paths *t = &p->paths;
@@ -190,16 +227,18 @@ int paths_before(void *bodies_, int64_t cell, const double *x, int outside, loca
     const moving_body *below;
     located foot[PATHS_MAX_LEVELS];
 
+    if (body >= 0)
+        return inside_before(p, image_near(t, p->n_image, body, x), h, x, then);
     if (!t->cell[cell] || !paths_find(t, x, PATHS_REACH * h, way))
         return 0;
     part = locate_path(p, x, way, foot);
     if (part == 0)
         return 0;
-    below = outside ? paths_below(t, x) : NULL;
+    below = paths_below(t, x);
     if (below)
         continue_fluid(p, below, x, h, part, way, foot, off);
     *then = foot[0];
-    return 1;
+    return below ? BEFORE_BESIDE : BEFORE_MOVED;
 }
 
 uint32_t bodies_rated(const bodies *b)
@@ -243,6 +282,8 @@ static void place(bodies *p, const placement *now, int levels, const pose *const
                 for (int i = 0; i < p->space->mesh->dim; i++)
                     b->way[l][i] = b->here.at.way[i] - then[l][k].way[i];
             }
+            if (levels > 0)
+                memcpy(b->turned, solid_at(b->here.shape, &then[0][k]).axes, sizeof b->turned);
             b->round = shape_is_round(b->here.shape);
             for (int i = 0; i < 3; i++)
                 b->here.at.x[i] += p->image[j][i];

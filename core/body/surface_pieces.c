@@ -43,7 +43,9 @@ void surface_add(void *list, const double *xi, const double *x, const double *nd
         memset(s->weight[s->n], 0, sizeof *s->weight);
     }
     for (int i = s->n_last; i < SURFACE_POINTS; i++) { /* what is not overwritten fills up */
-        s->curvature[s->n][i] = i > s->n_last ? s->curvature[s->n][s->n_last] : s->curved ? solid_curvature(s->curved, x) : 0;
+        s->curvature[s->n][i] = i > s->n_last ? s->curvature[s->n][s->n_last]
+                                : s->curved   ? solid_curvature(s->curved, x)
+                                              : 0;
         for (int k = 0; k < 3; k++) {
             s->ref[s->n][i][k] = xi[k];
             s->normal[s->n][i][k] = -nds[k] / size; /* out of the fluid */

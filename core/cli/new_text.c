@@ -70,11 +70,18 @@ static void boundaries(const new_plugin *n, int flow, text *t)
     }
 }
 
-/* T has its equation elsewhere: of heat, which needs a flow. */
-static int is_only_read(const new_plugin *n)
+/* The field has its equation elsewhere: the term only reads it, or acts on it on a boundary. */
+static int needs_equation(const new_plugin *n, const struct weak_used *u)
+{
+    const int on_boundary = strcmp(n->where, "PF_FACET") == 0 || strcmp(n->where, "PF_SURFACE") == 0;
+
+    return !is_of_flow(u->name) && (on_boundary || !u->has_test);
+}
+
+static int needs_heat(const new_plugin *n)
 {
     for (int i = 0; i < n->weak.n_used; i++)
-        if (strcmp(n->weak.used[i].name, "T") == 0 && !n->weak.used[i].has_test)
+        if (strcmp(n->weak.used[i].name, "T") == 0 && needs_equation(n, &n->weak.used[i]))
             return 1;
     return 0;
 }
@@ -82,7 +89,7 @@ static int is_only_read(const new_plugin *n)
 void new_case(const new_plugin *n, text *t)
 {
     const int in_3d = n->weak.only_3d,
-              flow = n->bodies || is_only_read(n) || uses(n, "u") || uses(n, "p") || uses(n, "U");
+              flow = n->bodies || needs_heat(n) || uses(n, "u") || uses(n, "p") || uses(n, "U");
     const char *shape = in_3d ? "sphere" : "disk", *deep = in_3d ? ", 0.5" : "";
 
     text_add(t, "-- The smallest case in which %s acts.\ncase \"%s\"\n\n", n->name, n->name);
@@ -97,10 +104,10 @@ void new_case(const new_plugin *n, text *t)
         text_add(t, n->weak.fluid.n ? "fluid { %s }\n\n" : "\n", n->weak.fluid.s);
     if (flow)
         text_add(t, "term \"continuity\" {}\nterm \"momentum\" {}\n");
+    if (needs_heat(n))
+        text_add(t, "term \"heat\" { conductivity = 1, heat_capacity = 1 }\n");
     for (int i = 0; i < n->weak.n_used; i++)
-        if (strcmp(n->weak.used[i].name, "T") == 0 && !n->weak.used[i].has_test)
-            text_add(t, "term \"heat\" { conductivity = 1, heat_capacity = 1 }\n");
-        else if (!is_of_flow(n->weak.used[i].name) && !n->weak.used[i].has_test)
+        if (strcmp(n->weak.used[i].name, "T") != 0 && needs_equation(n, &n->weak.used[i]))
             text_add(t, "-- add the term that is an equation of %s\n", n->weak.used[i].name);
     if (n->bodies)
         text_add(t, "particulate(\"sharp\")\n");
@@ -140,10 +147,13 @@ static const char on_pair[] =
     "/* What two near bodies, or a body and a wall, do to each other: a force that grows as they come near. */\n"
     "#include <plugflow/term.h>\n"
     "\n"
+    "#define KEYS \\\n"
+    "    REAL(force, \"N\", \"force at contact\", .dflt = 1, PF_NOT_NEGATIVE), \\\n"
+    "    REAL(range, \"m\", \"gap at which it begins\", .dflt = 0.1, .min = 1e-9, .max = 1e30)\n"
+    "\n"
     "/* -F0 (1 - gap/range)^2 n . V,  n from the other body to the first */\n"
     "TERM(@, PF_PAIR, IN(), OUT(SLOT(V, U, DEFECT, VECTOR)),\n"
-    "     PARAMS(REAL(force, \"N\", \"force at contact\", .dflt = 1, PF_NOT_NEGATIVE),\n"
-    "            REAL(range, \"m\", \"gap at which it begins\", .dflt = 0.1, .min = 1e-9, .max = 1e30)),\n"
+    "     PARAMS(KEYS),\n"
     "     .flags = PF_LINEAR, .reach = @_reach, .doc = \"-F_0(1-gap/range)^2\\\\,n\\\\cdot V\", .cite = \"say from "
     "where\")\n"
     "{\n"
@@ -155,14 +165,11 @@ static const char on_pair[] =
     "    }\n"
     "}\n"
     "\n"
-    "#if PF_ONCE\n"
     "/* The gap beyond which it does nothing. */\n"
-    "double @_reach(const void *params, double size, double h)\n"
+    "REACH(@, PARAMS(KEYS))\n"
     "{\n"
-    "    (void)size, (void)h;\n"
-    "    return ((const struct @_params *)params)->range;\n"
+    "    return range;\n"
     "}\n"
-    "#endif\n"
     "\n"
     "PLUGIN(@, \"@\", FIELDS(U), TERMS(@), .author = \"\")\n"
     "#include PF_TWIN\n";

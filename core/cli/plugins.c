@@ -50,14 +50,30 @@ int cli_plugins(const cli *o, error *err)
 
 static void print_slots(const char *title, const pf_slot *s, uint32_t n, int by_boundary)
 {
-    static const char *const shape[] = {"", "scalar", "vector", "tensor", "spin"};
+    static const char *const shape[] = {"",
+                                        "scalar",
+                                        "vector",
+                                        "tensor",
+                                        "spin",
+                                        "symmetric tensor",
+                                        "gradient of a symmetric tensor",
+                                        "gradient of a tensor"};
 
     for (uint32_t i = 0; i < n; i++)
-        printf("      %-7s %-22s %s%s%s, %s\n", i ? "" : title, s[i].name, term_eval_name(s[i].eval),
-               s[i].field ? " of " : "", s[i].field ? s[i].field : "", shape[s[i].shape]);
+        printf("      %-7s %-22s %s%s%s, %s%s%s%s%s\n", i ? "" : title, s[i].name, term_eval_name(s[i].eval),
+               s[i].field ? " of " : "", s[i].field ? s[i].field : "", shape[s[i].shape], s[i].unit ? ", " : "",
+               s[i].unit ? s[i].unit : "", s[i].doc ? ": " : "", s[i].doc ? s[i].doc : "");
     for (uint32_t i = 0; by_boundary && i < n; i++)
         if (s[i].eval == PF_DATA)
             printf("      in a case: boundary \"...\" { %s = ... }\n", s[i].name);
+    for (uint32_t i = 0; i < n; i++)
+        if (s[i].eval == PF_BODY_KEY) {
+            printf("      in a case: particle { %s = ... }  %s, %s; default %g", s[i].field, s[i].doc, s[i].unit,
+                   s[i].dflt);
+            if (s[i].min < s[i].max)
+                printf("; %g to %g", s[i].min, s[i].max);
+            printf("\n");
+        }
 }
 
 static void print_params(const pf_term *t)
@@ -90,7 +106,7 @@ static void print_term(const term_plugin *p, const pf_term *t)
                                              "surfaces of bodies",
                                              "cells with too little fluid (differences from their roots)",
                                              "bodies, once each",
-                                             "near pairs of bodies or body and wall (differences)"};
+                                             "near pairs of bodies or body and wall"};
 
     printf("  %s.%s%s\n      weak    %s\n      source  %s\n      points  %s; Jacobian %s%s%s%s\n", p->d.name,
            t->name, t->flags & PF_OPTIONAL ? " (only if its own line switches it on)" : "", t->doc, t->cite,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What particle {} has beside the kernel's own keys: keys of terms (PF_BODY_KEY), as in particle { charge = 3 }, and
- * how fields of bodies start, as in particle { theta = 0.3 }. */
+ * What particle {} has beside the kernel's own keys: keys of terms (PF_BODY_KEY), as in particle { charge = 3 },
+ * and how fields of bodies start, as in particle { theta = 0.3 }. */
 #include "describe/describe.h"
 
 #include <float.h>
@@ -10,8 +10,8 @@
 #include <string.h>
 
 /* Keys that particle {} and particles {} have of their own. */
-static const char *const taken[] = {"at",     "shape", "density", "motion", "hold", "velocity", "spin", "angle",
-                                    "orientation", "n", "seed",    "gap",    "inside"};
+static const char *const taken[] = {"at",    "shape",       "density", "motion", "hold", "velocity", "spin",
+                                    "angle", "orientation", "n",       "seed",   "gap",  "inside"};
 
 static int is_key(const pf_slot *s)
 {
@@ -29,15 +29,16 @@ static body_key *find_key(description *d, const char *name)
 /* Two terms that have a key must mean the same by it. */
 static void check_same(description *d, const body_key *k, const term_use *u, const pf_slot *s, const case_block *b)
 {
-    const char *what = k->n_comp != term_components(s->shape, d->dim)           ? "another shape"
-                       : s->unit && k->unit && strcmp(s->unit, k->unit) != 0    ? "another unit"
-                       : s->eval == PF_BODY_KEY && s->dflt != k->dflt           ? "another default"
-                                                                                : NULL;
+    const char *what = k->n_comp != term_components(s->shape, d->dim)        ? "another shape"
+                       : s->unit && k->unit && strcmp(s->unit, k->unit) != 0 ? "another unit"
+                       : s->eval == PF_BODY_KEY && s->dflt != k->dflt        ? "another default"
+                                                                             : NULL;
 
     if (what)
-        case_wrong(d->c, b, NULL,
-                   "%s.%s and %s.%s both have the key \"%s\" of bodies, with %s: one of them has to call it otherwise",
-                   u->plugin->d.name, u->term->name, k->use->plugin->d.name, k->use->term->name, s->field, what);
+        case_wrong(
+            d->c, b, NULL,
+            "%s.%s and %s.%s both have the key \"%s\" of bodies, with %s: one of them has to call it otherwise",
+            u->plugin->d.name, u->term->name, k->use->plugin->d.name, k->use->term->name, s->field, what);
 }
 
 static void add_key(description *d, term_use *u, const pf_slot *s, const case_block *b, error *err)
@@ -50,8 +51,9 @@ static void add_key(description *d, term_use *u, const pf_slot *s, const case_bl
         mine |= strcmp(s->field, taken[i]) == 0;
     if (mine || d->n_key == DESCRIBE_MAX_KEYS) {
         case_wrong(d->c, b, NULL,
-                   mine ? "%s.%s: bodies have the key \"%s\" already, with another meaning" : "%s.%s: \"%s\": too "
-                                                                                            "many keys of bodies",
+                   mine ? "%s.%s: bodies have the key \"%s\" already, with another meaning"
+                        : "%s.%s: \"%s\": too "
+                          "many keys of bodies",
                    u->plugin->d.name, u->term->name, s->field);
         return;
     }

@@ -297,6 +297,29 @@ static int is_moved(const description *d)
     return inertia && turns;
 }
 
+/* The history of a field of bodies' own is of fixed places, not of those that bodies carry along. */
+static void check_history(const description *d)
+{
+    const body_spec *moves = NULL;
+
+    for (int i = d->n_body - 1; i >= 0; i--)
+        moves = d->body[i].motion != BODY_FIXED ? &d->body[i] : moves;
+    for (int i = 0; moves && d->time.unsteady && i < d->n_use; i++)
+        for (uint32_t k = 0; d->use[i].where == PF_SOLID && k < d->use[i].term->n_in; k++) {
+            const pf_slot *s = &d->use[i].term->in[k];
+            const int f = s->eval == PF_DOT ? fields_find(&d->fields, s->field) : -1;
+
+            if (f < 0 || d->fields.f[f].support != PF_IN_PARTICLES || d->fields.f[f].constrains)
+                continue;
+            case_wrong(d->c, moves->block, "motion",
+                       "%s.%s is about what a body keeps (%s), and does not go along with one that moves: motion = "
+                       "\"fixed\", or term \"%s\" { without = {\"%s\"} }, if the body keeps next to nothing",
+                       d->use[i].plugin->d.name, d->use[i].term->name, d->fields.f[f].doc, d->use[i].plugin->d.name,
+                       d->use[i].term->name);
+            return;
+        }
+}
+
 static void check_bodies(const description *d)
 {
     const body_spec *first = NULL;
@@ -332,6 +355,8 @@ void describe_check_formulation(description *d)
     check_pressure(d);
     check_repulsion(d);
     check_regions(d);
-    if (d->n_body)
+    if (d->n_body) {
         check_bodies(d);
+        check_history(d);
+    }
 }

@@ -122,6 +122,21 @@ static void check_taken(description *d, registry *r)
         }
 }
 
+/* Whether some term takes fluid{}'s key as a number that is no property. */
+static int is_number(description *d, const char *key)
+{
+    const case_block *line;
+    int found = 0;
+
+    for (int i = 0; i < count(d); i++) {
+        const term_use *u = use_of(d, i, &line);
+        const pf_param *q = describe_param(u, key);
+
+        found |= q && (q->flags & PF_SHARED) && !term_takes(u->term, key);
+    }
+    return found;
+}
+
 /* The numbers of a term: one that has to be there and is not published; one that nobody would use. */
 static void check_number(description *d, const term_use *u, const case_block *line, uint32_t i)
 {
@@ -140,7 +155,8 @@ static void check_number(description *d, const term_use *u, const case_block *li
         reader own;
 
         reader_open(&own, d->c, line, "");
-        case_wrong(d->c, reader_has(&own, q->name) ? line : case_find(d->c, "fluid", 0), q->name,
+        if (reader_has(&own, q->name) || !is_number(d, q->name))
+            case_wrong(d->c, reader_has(&own, q->name) ? line : case_find(d->c, "fluid", 0), q->name,
                    "\"%s\" is given here, but %s publishes it: this number would not be used; take it out", q->name,
                    name_of_use(law).s);
     }

@@ -81,7 +81,7 @@ static void make_empty(const int32_t *body, int64_t n_node, int inside, int widt
 typedef struct grid_file {
     text head;
     int n;
-    block b[2 * SPACE_MAX_FIELDS + 5];
+    block b[4 * SPACE_MAX_FIELDS + 5];
     uint64_t offset; /* of the next block */
 } grid_file;
 
@@ -148,6 +148,8 @@ static int add_fields(grid_file *g, const vtu_more *of, const int32_t *body, are
         int at[VALUE_MAX], width = file_components(f, s->mesh->dim, at);
         double *values;
 
+        if (space_of_cells(f)) /* see vtu_cells */
+            continue;
         ARENA_NEW(a, values, n * width, err);
         nodal(s, of->field[i], of->x, values);
         if (body && of->empty >> of->field[i] & 1)
@@ -156,6 +158,24 @@ static int add_fields(grid_file *g, const vtu_more *of, const int32_t *body, are
             make_empty(body, n, 0, width, values);
         add_array(g, "Float64", f->name, f->unit, width, values, n * width * 8);
     }
+    return 0;
+}
+
+static int add_cells(grid_file *g, const mesh *m, const vtu_cells *cells, arena *a, error *err)
+{
+    text_add(&g->head, "<CellData>\n");
+    for (int i = 0; i < cells->n; i++) {
+        const field_spec *f = cells->field[i];
+        int of[VALUE_MAX], width = file_components(f, m->dim, of);
+        double *values;
+
+        ARENA_NEW(a, values, m->n_cell * width, err);
+        for (int64_t e = 0; e < m->n_cell; e++)
+            for (int k = 0; k < width; k++)
+                values[e * width + k] = of[k] < 0 ? 0 : cells->value[i][e * f->n_comp + of[k]];
+        add_array(g, "Float64", f->name, f->unit, width, values, m->n_cell * width * 8);
+    }
+    text_add(&g->head, "</CellData>\n");
     return 0;
 }
 
@@ -187,7 +207,8 @@ int vtu_write(const char *path, const space *s, const int *fields, int n_field, 
 int vtu_write_more(const char *path, const space *s, const int *fields, int n_field, const double *x, double t,
                    const vtu_bodies *bodies, const vtu_more *more, error *err)
 {
-    const vtu_more own = {s, fields, n_field, x, bodies ? bodies->empty : 0, 0};
+    const vtu_more own = {s,   fields, n_field, x, bodies ? bodies->empty : 0, bodies ? bodies->empty_outside : 0,
+                          NULL};
     const int32_t *body = bodies ? bodies->body : NULL;
     grid_file g = {0};
     arena a = {0};
@@ -211,6 +232,8 @@ int vtu_write_more(const char *path, const space *s, const int *fields, int n_fi
     if (body)
         add_array(&g, "Int32", "body", NULL, 1, body, s->mesh->n_node * 4);
     text_add(&g.head, "</PointData>\n");
+    if (!status && more->cells && more->cells->n)
+        status = add_cells(&g, s->mesh, more->cells, &a, err);
     text_add(&g.head, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
     if (!status)
         status = put_together(path, &g, &a, err);

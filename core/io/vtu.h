@@ -8,17 +8,26 @@
 
 /* Which nodes lie in rigid bodies, where there is no fluid. */
 typedef struct vtu_bodies {
-    const int32_t *body; /* [n_node] number of the body that holds the node, -1: fluid          */
-    uint32_t empty;      /* bit f: field f of the space has no value in bodies, NaN in the file */
+    const int32_t *body;    /* [n_node] number of the body that holds the node, -1: fluid          */
+    uint32_t empty;         /* bit f: field f of the space has no value in bodies, NaN in the file */
+    uint32_t empty_outside; /* ... has none outside of them */
 } vtu_bodies;
 
-/* Fields of another space that stand in the same file. */
+/* Fields with one value a cell. */
+typedef struct vtu_cells {
+    int n;
+    const field_spec *field[2 * SPACE_MAX_FIELDS];
+    const double *value[2 * SPACE_MAX_FIELDS]; /* [n_cell][n_comp] */
+} vtu_cells;
+
+/* What else stands in the same file: fields of another space, fields of cells. */
 typedef struct vtu_more {
     const space *space; /* on the same mesh */
     const int *field;   /* [n_field] of it  */
     int n_field;
     const double *x;
     uint32_t empty, empty_outside; /* bit f: field f has no value in bodies, outside of them */
+    const vtu_cells *cells;        /* NULL: there are none */
 } vtu_more;
 
 /* Writes fields[n_field] of the space (order 1 ones are interpolated to all nodes, exactly) with the unknowns

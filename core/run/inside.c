@@ -2,7 +2,8 @@
  *
  * Which body holds a place, and what the fields are there: the velocity is the body's motion; a field with
  * equations in the fluid only has no value, and neither has one that enforces what a rigid motion fulfils by
- * itself, as the pressure does.  By the poses of the state, as everything that is written. */
+ * itself, as the pressure does.  A field of the bodies' own has none outside.  By the poses of the state, as
+ * everything that is written. */
 #include "run/run.h"
 
 #include <math.h>
@@ -25,6 +26,9 @@ int inside_open(run *r, error *err)
         if (f != bodies_rigid_field(b) && r->p->space.field[f].support == PF_ON_MESH &&
             (b->fluid_only[f] || !describe_field_is_balanced(&r->p->description, f)))
             r->empty |= 1u << f;
+    for (int f = 0; f < r->p->space.n_field; f++)
+        if (r->p->space.field[f].support == PF_IN_PARTICLES && !r->p->space.field[f].constrains)
+            r->empty_outside |= 1u << f;
     return 0;
 }
 
@@ -72,10 +76,10 @@ const body_place *inside_place(const run *r, const double *x)
 
 void inside_value(const run *r, const body_place *p, int field, const double *x, double *v)
 {
-    if (r->empty >> field & 1)
+    if ((p ? r->empty : r->empty_outside) >> field & 1)
         for (int k = 0; k < r->p->space.field[field].n_comp; k++)
             v[k] = NAN;
-    else if (field == bodies_rigid_field(&r->p->bodies))
+    else if (p && field == bodies_rigid_field(&r->p->bodies))
         bodies_velocity(&r->p->bodies, &p->solid.at, r->x, p->body, x, v);
 }
 

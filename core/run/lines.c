@@ -97,7 +97,7 @@ static void add_point(const run *r, const located *at, const double *x, double t
             v[c] = NAN;
         if (at->cell >= 0)
             locate_value(&p->space, at, f, r->shown, v, NULL);
-        if (in)
+        if (at->cell >= 0)
             inside_value(r, in, f, x, v);
         add_values(v, p->space.field[f].n_comp, s);
     }

@@ -71,6 +71,8 @@ static int write_units(const run *r, text *units, error *err)
                  r->p->space.field[f].unit);
     for (int f = 0; f < n; f++)
         text_add(units, ",\n  \"%s\": \"%s\"", shown[f].name, shown[f].unit);
+    for (int f = 0; f < r->p->space.kept.n; f++)
+        text_add(units, ",\n  \"%s\": \"%s\"", r->p->space.kept.field[f].name, r->p->space.kept.field[f].unit);
     text_add(units, "\n}\n");
     snprintf(path, sizeof path, "%s/units.json", r->dir);
     return units->failed ? error_memory(err, path, 0) : file_write(path, units->s, units->n, err);
@@ -147,7 +149,10 @@ static int room_for_file(run *r, error *err)
 int output_fields(run *r, double t, error *err)
 {
     const output_spec *out = &r->p->description.output;
-    vtu_bodies bodies = {.body = r->body_of_node, .empty = r->empty};
+    vtu_bodies bodies = {.body = r->body_of_node, .empty = r->empty, .empty_outside = r->empty_outside};
+    vtu_cells cells;
+    arena memory = {0};
+    int status;
     char path[4600], name[40];
     double start = clock_seconds();
     vtu_more more;
@@ -162,8 +167,14 @@ int output_fields(run *r, double t, error *err)
     }
     snprintf(name, sizeof name, "fields_%05d.vtu", r->n_file);
     snprintf(path, sizeof path, "%s/%s", r->dir, name);
-    TRY(vtu_write_more(path, &r->p->space, out->field, out->n_field, r->in_file ? r->in_file : r->shown,
-                       r->p->description.time.unsteady ? t : NAN, r->body_of_node ? &bodies : NULL, &more, err));
+    status = cell_fields(r, &cells, &memory, err);
+    more.cells = &cells;
+    if (!status)
+        status =
+            vtu_write_more(path, &r->p->space, out->field, out->n_field, r->in_file ? r->in_file : r->shown,
+                           r->p->description.time.unsteady ? t : NAN, r->body_of_node ? &bodies : NULL, &more, err);
+    arena_free(&memory);
+    TRY(status);
     r->file[r->n_file] = strdup(name);
     if (!r->file[r->n_file])
         return error_memory(err, "list of files", 0);

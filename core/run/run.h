@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "io/file.h"
+#include "io/vtu.h"
 #include "problem/problem.h"
 
 #include <signal.h>
@@ -83,10 +84,11 @@ typedef struct run {
     double *shown;   /* [n_dof] solution + offset */
     double *in_file; /* [n_dof] the same with the bodies' motion at nodes inside of them; NULL: no bodies */
     int n_place;
-    body_place *place;     /* where bodies are                                        */
-    int32_t *body_of_node; /* [n_node] body that holds the node, or -1; NULL: none       */
-    uint32_t empty;        /* bit f: field f has no value inside of bodies                */
-    text results;          /* JSON of the case's derived results */
+    body_place *place;      /* where bodies are                                        */
+    int32_t *body_of_node;  /* [n_node] body that holds the node, or -1; NULL: none       */
+    uint32_t empty;         /* bit f: field f has no value inside of bodies                */
+    uint32_t empty_outside; /* ... has none outside of them                              */
+    text results;           /* JSON of the case's derived results */
     struct flow_energy *energy;
     arena memory;
 } run;
@@ -129,7 +131,7 @@ int lines_write(run *r, double t, error *err);
 int inside_open(run *r, error *err);
 void inside_update(run *r);                                    /* after the bodies have moved              */
 const body_place *inside_place(const run *r, const double *x); /* the body that holds x, or NULL */
-/* Value of a field at x in the body: its motion, or NaN; else v stays. */
+/* Value of a field at x in the body (NULL: in the fluid): its motion, or NaN; else v stays. */
 void inside_value(const run *r, const body_place *p, int field, const double *x, double *v);
 /* r->body_of_node; the motion of bodies at the nodes that they hold into shown [n_dof]. */
 void inside_nodes(run *r, double *shown);
@@ -174,5 +176,11 @@ int norms_mean(const run *r, int f, double *mean, error *err);
 int results_expect(run *r, error *err);
 /* After it: calls it and leaves JSON in r->results (results_call). */
 int results_evaluate(run *r, error *err);
+
+/* Memory of terms (memory.c): by its mean over each cell; the columns of bodies' and their values, returns what
+ * follows. */
+int cell_fields(const run *r, vtu_cells *to, arena *memory, error *err);
+int kept_columns(const run *r, char (*name)[OFF_MESH_NAME]);
+double *kept_of_body(const run *r, int body, double *to);
 
 #endif

@@ -94,6 +94,9 @@ static void force_columns(const problem *p, const char *boundary, columns *c)
                 snprintf(name[k], 96, "%.40s.torque", boundary);
             else
                 snprintf(name[k], 96, "%.40s.t%c", boundary, "xyz"[k]);
+        name = p->description.output.coefficient > 0 ? more(c, g->n_comp, "1") : NULL;
+        for (int k = 0; name && k < g->n_comp; k++)
+            snprintf(name[k], 96, "%.40s.c%c", boundary, "xyz"[k]);
     }
 }
 
@@ -137,6 +140,13 @@ static int plan_probes(run *r, columns *c, text *units, error *err)
             name = more(c, shown[f].n_comp, shown[f].unit);
             if (name)
                 output_components(&shown[f], prefix, name);
+        }
+        for (int f = 0; f < p->space.kept.n; f++) {
+            const field_spec *g = &p->space.kept.field[f];
+
+            name = g->support == PF_AT_POINTS ? more(c, g->n_comp, g->unit) : NULL;
+            if (name)
+                output_components(g, prefix, name);
         }
         name = p->bodies.n ? more(c, 1, "1") : NULL;
         if (name)
@@ -231,6 +241,8 @@ static double *reaction(const run *r, int boundary, int f, const double *about, 
     if (turns)
         for (int a = m->dim == 2 ? 2 : 0; a < 3; a++)
             *out++ = torque[a];
+    for (int a = 0; turns && p->description.output.coefficient > 0 && a < n_comp; a++)
+        *out++ = p->description.output.coefficient * sum[a];
     return out;
 }
 
@@ -252,12 +264,16 @@ static int add_probes(run *r, double t, double *row, error *err)
             if (!output_has_columns(&p->space.field[f]))
                 continue;
             locate_value(&p->space, &r->probe_at[i], f, r->shown, at, NULL);
-            if (in)
-                inside_value(r, in, f, o->probe[i].x, at);
+            inside_value(r, in, f, o->probe[i].x, at);
             at += p->space.field[f].n_comp;
         }
         for (int f = 0; f < n_shown; at += shown[f++].n_comp)
             showing_value(r, f, &r->probe_at[i], in, at);
+        for (int f = 0; f < p->space.kept.n; f++)
+            if (p->space.kept.field[f].support == PF_AT_POINTS) {
+                kept_value(&p->space.kept, f, p->state.kept, r->probe_at[i].cell, r->probe_at[i].xi, at);
+                at += p->space.kept.field[f].n_comp;
+            }
         if (p->bodies.n)
             *at++ = in ? in->body : -1;
     }

@@ -22,7 +22,8 @@ typedef struct body_past {
     double motion[STATE_PAST][6];
 } body_past;
 
-/* Force and torque of the fluid on a body at the end of the last step (2D: 4th and on: one torque); 0 at the start. */
+/* Force and torque of the fluid on a body at the end of the last step (2D: 4th and on: one torque); 0 at the start.
+ */
 typedef struct body_fluid {
     double force[6];
 } body_fluid;

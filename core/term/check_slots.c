@@ -51,6 +51,8 @@ static int check_special(const pf_slot *slot, uint32_t where, int is_out, const 
     if (slot->eval == PF_SHOW && where != PF_CELL && where != PF_FLUID && where != PF_SOLID)
         return check_wrong(err, s, "slot \"%s\": a field can be shown of points in cells, not of %s points",
                            slot->name, term_where_name(where));
+    if ((key || slot->eval == PF_OTHER_KEY) && slot->shape != PF_SCALAR && slot->shape != PF_VECTOR)
+        return check_wrong(err, s, "slot \"%s\": a key of bodies is PF_SCALAR or PF_VECTOR", slot->name);
     if ((is_out || key) && (!slot->unit || !slot->doc))
         return check_wrong(err, s, "slot \"%s\" lacks a unit (\"1\" if it has none) or a line of doc", slot->name);
     return 0;
@@ -98,6 +100,10 @@ static int check_place(const pf_slot *slot, const pf_field *f, uint32_t where, c
         return check_wrong(err, s,
                            "slot \"%s\": at PF_PARTICLE points fields of particles and of the problem are there",
                            slot->name);
+    if (f->support == PF_ON_MESH && f->order == 0 &&
+        (e == PF_GRAD || e == PF_DIV || e == PF_LAPLACE || where == PF_CUT))
+        return check_wrong(err, s, "slot \"%s\": field \"%s\" has one value a cell (order 0) and no %s", slot->name,
+                           f->name, term_eval_name(e));
     if (off_mesh && e != PF_VALUE && e != PF_DOT && e != PF_OLD && e != PF_DEFECT && e != PF_OTHER)
         return check_wrong(err, s, "slot \"%s\": field \"%s\" does not live on the mesh and has no %s", slot->name,
                            f->name, term_eval_name(e));

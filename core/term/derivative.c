@@ -4,7 +4,8 @@
  *
  *     by hand          the term's own jacobian()
  *     complex step     Im f(x + i h) / h,  h = 1e-100: exact to round-off
- *     differences      (f(x + h) - f(x - h)) / 2h,  h = eps^(1/3) |x|max: about ten digits     */
+ *     differences      (f(x + h) - f(x - h)) / 2h,  h = eps^(1/3) |x|max: about ten digits; of a linear term any h
+ */
 #include "term/term.h"
 
 #include <complex.h>
@@ -13,6 +14,12 @@
 #include <string.h>
 
 #define COMPLEX_STEP 1e-100
+
+/* Components of slot k that are derived by. */
+static int derived(const pf_term *t, uint32_t k, double *const *jac, int dim)
+{
+    return term_is_derived(&t->in[k]) && jac[k] ? term_components(t->in[k].shape, dim) : 0;
+}
 
 static size_t lanes_of(const pf_slot *slot, uint32_t n, int dim)
 {
@@ -58,7 +65,7 @@ static int by_complex_step(const pf_term *t, const pf_batch *b, const double *co
         room += (size_t)term_components(t->out[o].shape, dim) * ld;
     }
     for (uint32_t k = 0; k < t->n_in; k++)
-        for (int c = 0, n_c = jac[k] ? term_components(t->in[k].shape, dim) : 0; c < n_c; c++) {
+        for (int c = 0, n_c = derived(t, k, jac, dim); c < n_c; c++) {
             int status;
 
             for (uint32_t i = 0; i < ld; i++)
@@ -99,12 +106,13 @@ static int by_differences(const pf_term *t, const pf_batch *b, const double *con
         room += 2 * n;
     }
     for (uint32_t k = 0; k < t->n_in; k++) {
-        int n_c = jac[k] ? term_components(t->in[k].shape, dim) : 0;
+        int n_c = derived(t, k, jac, dim);
         double size = 0, h;
 
         for (uint32_t i = 0; i < (uint32_t)n_c * ld; i++)
             size = fmax(size, fabs(in[k][i]));
-        h = cbrt(DBL_EPSILON) * (size > 0 ? size : 1);
+        h = t->flags & PF_LINEAR ? fmax(size, 1) /* any step is exact; one of a value that is round-off is not */
+                                 : cbrt(DBL_EPSILON) * (size > 0 ? size : 1);
         for (int c = 0; c < n_c; c++) {
             double *x = zk[k] + (uint32_t)c * ld;
             const double *x0 = in[k] + (uint32_t)c * ld;

@@ -27,17 +27,34 @@ typedef struct sheet {
     int n_output, n_block, n_in;
 } sheet;
 
-static void take_derivatives(sheet *s, const expr *whole)
+/* The outputs; a test function that drops out is none. */
+static void take_outputs(sheet *s, const expr *whole)
+{
+    form *f = s->f;
+    int n = 0;
+
+    for (int i = 0; i < f->n_symbol; i++) {
+        output *o = &s->output[s->n_output];
+
+        f->symbol[n++] = f->symbol[i];
+        if (f->symbol[i]->kind != SYM_TEST)
+            continue;
+        *o = (output){.test = f->symbol[i], .at = {index_new(f), index_new(f)}};
+        o->value = differentiate(f, whole, o->test, o->at[0], o->at[1]);
+        if (index_is_number(o->value, 0))
+            n--;
+        else
+            s->n_output++;
+    }
+    f->n_symbol = n;
+    if (s->n_output == 0)
+        form_fail(f, -1, "the form is zero, whatever the fields are");
+}
+
+static void take_derivatives(sheet *s)
 {
     form *f = s->f;
 
-    for (int i = 0; i < f->n_symbol; i++)
-        if (f->symbol[i]->kind == SYM_TEST) {
-            output *o = &s->output[s->n_output++];
-
-            *o = (output){.test = f->symbol[i], .at = {index_new(f), index_new(f)}};
-            o->value = differentiate(f, whole, o->test, o->at[0], o->at[1]);
-        }
     for (int o = 0; o < s->n_output; o++)
         for (int i = 0; i < f->n_symbol; i++) {
             block *b = &s->block[s->n_block];
@@ -57,9 +74,10 @@ static void take_derivatives(sheet *s, const expr *whole)
         }
 }
 
+/* Whether there is a slot in it, also one of the step before: the Jacobian of a linear term has none. */
 static int moves(const expr *e)
 {
-    int m = e->kind == X_SYMBOL && e->symbol->moves;
+    int m = e->kind == X_SYMBOL && e->symbol->kind == SYM_SLOT && !e->symbol->is_property;
 
     for (int i = 0; i < e->n; i++)
         m |= moves(e->arg[i]);
@@ -81,7 +99,7 @@ static void leave_out_unused(form *f, const expr *whole)
     int n = 0;
 
     for (int i = 0; i < f->n_symbol; i++)
-        if (is_mentioned(whole, f->symbol[i]) || f->symbol[i]->kind == SYM_POINT)
+        if (is_mentioned(whole, f->symbol[i]) || (f->symbol[i]->kind != SYM_SLOT && f->symbol[i]->kind != SYM_TEST))
             f->symbol[n++] = f->symbol[i];
     f->n_symbol = n;
 }
@@ -148,7 +166,7 @@ static void emit_term(const sheet *s, text *t)
     int nonlinear = 0, n_unknown = 0;
 
     for (int i = 0; i < s->n_block; i++)
-        nonlinear |= moves(s->block[i].value);
+        nonlinear |= !s->block[i].in->is_property && moves(s->block[i].value);
     for (int i = 0; i < f->n_symbol; i++)
         n_unknown += f->symbol[i]->kind == SYM_SLOT && f->symbol[i]->moves;
     text_add(t, "TERM(%s, %s, ", f->request->name, f->request->where);
@@ -166,17 +184,30 @@ static void emit_term(const sheet *s, text *t)
     text_add(t, "     .doc = \"%s\", .cite = \"say from where\")\n", f->request->form);
 }
 
+/* LANES round all that follows, if there is anything that is computed once a point. */
+static void open_lanes(const names *n, text *once, text *t)
+{
+    text_add(t, n->n_known ? "{\n    LANES (i) {\n%s\n" : "{\n", once->s);
+    text_free(once);
+}
+
+static void close_lanes(const names *n, text *t)
+{
+    text_add(t, n->n_known ? "    }\n}\n" : "}\n");
+}
+
 static void emit_residual(sheet *s, text *t)
 {
     names n = {.f = s->f};
-    text_add(t, "{\n    LANES (i) {\n");
+    text once = {0};
+
     for (int o = 0; o < s->n_output; o++)
-        emit_once(s->f, &n, s->output[o].value, "NUM", t);
-    text_add(t, n.n_known ? "\n" : "");
+        emit_once(s->f, &n, s->output[o].value, "NUM", &once);
+    open_lanes(&n, &once, t);
     for (int o = 0; o < s->n_output; o++)
         emit_assignment(s->f, &n, s->output[o].test->name, s->output[o].at, s->output[o].test->rank, "=",
                         s->output[o].value, "NUM", t);
-    text_add(t, "    }\n}\n");
+    close_lanes(&n, t);
 }
 
 /* One addend of a block; its deltas are no factors but places. */
@@ -214,16 +245,17 @@ static void emit_jacobian(sheet *s, text *t)
 {
     form *f = s->f;
     names n = {.f = f};
+    text once = {0};
 
     text_add(t, "\nJACOBIAN(%s, ", f->request->name);
     list(f, "IN", 1u << SYM_SLOT, t);
     text_add(t, ", PARAMS(%s),\n         BLOCKS(", n_keys(f) ? "KEYS" : "");
     for (int i = 0; i < s->n_block; i++)
         text_add(t, "%sBLOCK(%s, %s)", i ? ", " : "", s->block[i].out->test->entry, s->block[i].in->entry);
-    text_add(t, "))\n{\n    LANES (i) {\n");
+    text_add(t, "))\n");
     for (int i = 0; i < s->n_block; i++)
-        emit_once(f, &n, s->block[i].value, "double", t);
-    text_add(t, n.n_known ? "\n" : "");
+        emit_once(f, &n, s->block[i].value, "double", &once);
+    open_lanes(&n, &once, t);
     for (int i = 0; i < s->n_block; i++) {
         const expr *e = index_spread(f, s->block[i].value);
         const int n_addend = e->kind == X_ADD && index_has_delta(e, -1) ? e->n : 1;
@@ -231,7 +263,7 @@ static void emit_jacobian(sheet *s, text *t)
         for (int k = 0; k < n_addend; k++)
             emit_addend(f, &n, &s->block[i], n_addend > 1 ? e->arg[k] : e, n_addend > 1 ? "+=" : "=", t);
     }
-    text_add(t, "    }\n}\n");
+    close_lanes(&n, t);
 }
 
 static void emit_plugin(const form *f, text *t)
@@ -286,7 +318,8 @@ void emit_source(form *f, const tree *t, text *source)
 
     s->f = f;
     leave_out_unused(f, whole);
-    take_derivatives(s, whole);
+    take_outputs(s, whole);
+    take_derivatives(s);
     text_add(&draft, "/* %s\n *\n *     %s\n *\n * Written by plugflow new --weak; yours to change. */\n",
              f->request->name, f->request->form);
     text_add(&draft, "#include <plugflow/term.h>\n\n");

@@ -20,10 +20,11 @@ typedef struct tree tree;
 /* What has a name in the generated C: "grad_u", "viscosity", "AT(b->normal, a)". */
 typedef struct symbol {
     enum symbol_kind kind;
-    const char *name;        /* in C                                          */
-    const char *entry;       /* in IN, OUT, PARAMS: "grad_u", "GRAD(tau)"      */
-    int rank;                /* 0 scalar, 1 vector, 2 tensor                   */
-    int moves, is_rate;      /* it is an unknown; a derivative in time         */
+    const char *name;   /* in C                                          */
+    const char *entry;  /* in IN, OUT, PARAMS: "grad_u", "GRAD(tau)"      */
+    int rank;           /* 0 scalar, 1 vector, 2 tensor                   */
+    int moves, is_rate; /* an unknown, or a property, which may depend on unknowns; d/dt of one */
+    int is_property;
     const weak_field *field; /* of slots                                       */
     const tree *part;        /* of SYM_PART: a name that the form gives        */
 } symbol;
@@ -123,7 +124,7 @@ void print_expr(names *n, const expr *e, text *t);
 
 /* --- emit.c, emit_block.c --- */
 /* Statements of `type` ("NUM", "double") that give names to what is computed once a point; and one that computes
- * target = e (or +=), target with the indices `at`. */
+ * target = e (or +=), target with the indices `at`, in lanes of its own if nothing has a name. */
 void emit_once(form *f, names *n, const expr *e, const char *type, text *t);
 void emit_assignment(form *f, names *n, const char *target, const int *at, int n_at, const char *op, const expr *e,
                      const char *type, text *t);

@@ -334,7 +334,7 @@ static const expr *sum_of_product(form *f, int i, const expr *body)
 
 const expr *index_sum(form *f, int i, const expr *body)
 {
-    static const symbol dim = {.kind = SYM_POINT, .name = "DIM"};
+    static const symbol dim = {.kind = SYM_POINT, .name = "(double)DIM"};
     expr *e;
 
     if (!index_in(body, i))

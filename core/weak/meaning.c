@@ -96,29 +96,42 @@ static symbol *of_point(form *f, const char *name)
     return NULL;
 }
 
+/* A property is a slot; where nobody publishes it, it is the key of that name, which the term lists, too. */
+static symbol *of_property(form *f, const char *slot, const char *entry, const char *key, const char *key_entry)
+{
+    symbol *s = form_symbol(f, SYM_SLOT, slot, 0);
+
+    s->entry = entry;
+    s->moves = s->is_property = 1;
+    form_symbol(f, SYM_REAL, key, 0)->entry = key_entry;
+    return s;
+}
+
 tree *meaning_of_name(form *f, const char *name, int column)
 {
-    static const char *const known[][3] = {
-        {"rho", "density", "DENSITY"},    {"density", "density", "DENSITY"},
-        {"mu", "viscosity", "VISCOSITY"}, {"viscosity", "viscosity", "VISCOSITY"},
-        {"g", "gravity", "GRAVITY"},      {"gravity", "gravity", "GRAVITY"}};
     const weak_field *field = form_field(f, name), *test = field_of_test(f, name);
     symbol *s = form_named(f, name);
 
-    if (s && (s->kind == SYM_PART || s->kind == SYM_VECTOR))
+    if (s && (s->kind == SYM_PART || s->kind == SYM_VECTOR || (s->kind == SYM_SLOT && !s->field)))
         return of_symbol(f, s, column);
     if (field || test)
         return of_slot(f, field ? field : test, "", !field, column);
     if ((s = of_point(f, name)))
         return of_symbol(f, s, column);
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (strcmp(name, known[i][0]) == 0) {
-            const int is_vector = i >= 4;
-
-            s = form_symbol(f, is_vector ? SYM_VECTOR : SYM_REAL, known[i][1], is_vector);
-            s->entry = known[i][2];
-            return of_symbol(f, s, column);
-        }
+    if (strcmp(name, "rho") == 0)
+        return of_symbol(f, of_property(f, "rho", "rho", "density", "DENSITY"), column);
+    if (strcmp(name, "mu") == 0)
+        return of_symbol(f, of_property(f, "mu", "mu", "viscosity", "VISCOSITY"), column);
+    if (strcmp(name, "density") == 0 || strcmp(name, "viscosity") == 0) {
+        s = form_symbol(f, SYM_REAL, name, 0);
+        s->entry = *name == 'd' ? "DENSITY" : "VISCOSITY";
+        return of_symbol(f, s, column);
+    }
+    if (strcmp(name, "g") == 0 || strcmp(name, "gravity") == 0) {
+        s = form_symbol(f, SYM_VECTOR, "gravity", 1);
+        s->entry = "GRAVITY";
+        return of_symbol(f, s, column);
+    }
     if (strcmp(name, "i") == 0 || strcmp(name, "b") == 0 || strcmp(name, "in") == 0 || strcmp(name, "out") == 0)
         form_fail(f, column, "\"%s\" is not possible as a parameter: generated code has that name itself", name);
     s = form_symbol(f, SYM_REAL, name, 0);
@@ -205,17 +218,33 @@ static tree *of_field(form *f, const char *name, int column, const tree *a)
     return of_slot(f, s->field, name, s->kind == SYM_TEST, column);
 }
 
-/* vector(b): the parameter b is a vector. */
-static tree *of_vector(form *f, int column, tree *a)
+/* vector(b): the parameter b is a vector; data(q), data(vector(f)): a value or function of the case;
+ * property(k): a quantity that another term may publish. */
+static tree *of_parameter(form *f, const char *function, int column, tree *a)
 {
-    symbol *s = a->symbol;
+    symbol *s = strcmp(a->op, "name") == 0 ? a->symbol : NULL;
+    const int is_vector = strcmp(function, "vector") == 0, is_data = strcmp(function, "data") == 0;
+    const char *slot;
 
-    if (!s || (s->kind != SYM_REAL && s->kind != SYM_VECTOR))
-        form_fail(f, column, "vector(...): expected the name of a parameter");
-    if (s->kind == SYM_REAL)
+    if (s && s->field)
+        form_fail(f, column, "%s(%s): %s is %s %s; give it another name", function, s->name, s->name,
+                  s->kind == SYM_TEST ? "the test function of" : "the field", s->field->name);
+    if (s && (s->is_property || (is_data && s->kind == SYM_SLOT)))
+        return a;
+    if (!s || (s->kind != SYM_REAL && s->kind != SYM_VECTOR) || (s->rank && !is_vector && !is_data))
+        form_fail(f, column, "%s(...): expected a name that is no field%s", function,
+                  is_data ? ", or vector(name)" : "");
+    slot = form_text(f, "%s_here", s->name);
+    if (!is_vector && !is_data)
+        return of_symbol(
+            f, of_property(f, slot, form_text(f, "PROPERTY_AS(%s, %s, \"1\")", slot, s->name), s->name, s->entry),
+            column);
+    if (is_vector && s->kind == SYM_REAL)
         s->entry = form_text(f, "VECTOR(%s, \"1\", \"%s\")", s->name, s->name);
-    s->kind = SYM_VECTOR;
-    s->rank = a->rank = 1;
+    else if (is_data)
+        s->entry = form_text(f, "DATA(%s, %s)", s->name, s->rank ? "VECTOR" : "SCALAR");
+    s->kind = is_vector ? SYM_VECTOR : SYM_SLOT;
+    s->rank = a->rank = is_vector ? 1 : s->rank;
     return a;
 }
 
@@ -227,8 +256,8 @@ tree *meaning_of_call(form *f, const char *name, int column, tree **arg, int n)
     const struct function *g = functions, *end = functions + sizeof functions / sizeof *functions;
     tree *t;
 
-    if (strcmp(name, "vector") == 0 && n == 1)
-        return of_vector(f, column, arg[0]);
+    if (n == 1 && (strcmp(name, "vector") == 0 || strcmp(name, "data") == 0 || strcmp(name, "property") == 0))
+        return of_parameter(f, name, column, arg[0]);
     if (strcmp(name, "dot") == 0 && n == 2)
         return of_dot(f, column, arg[0], arg[1]);
     for (size_t i = 0; i < sizeof of_fields / sizeof *of_fields; i++) {

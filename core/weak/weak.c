@@ -23,22 +23,33 @@ static void find_used(const form *f, weak_result *out)
     }
 }
 
-/* What a case must say beside fluid{}. */
+static int begins(const char *s, const char *with)
+{
+    return strncmp(s, with, strlen(with)) == 0;
+}
+
+/* Which key of the case gives it: of the term's own line, of fluid{}, or none. */
+static text *keys_of(const symbol *s, weak_result *out)
+{
+    if (s->field || s->is_property || !s->entry ||
+        (s->kind != SYM_REAL && s->kind != SYM_VECTOR && s->kind != SYM_SLOT))
+        return NULL;
+    return s->kind == SYM_SLOT || begins(s->entry, "REAL(") || begins(s->entry, "VECTOR(") ? &out->keys
+                                                                                           : &out->fluid;
+}
+
 static void find_keys(const form *f, weak_result *out)
 {
     for (int i = 0; i < f->n_symbol; i++) {
         const symbol *s = f->symbol[i];
-        const int is_own = s->entry && (strncmp(s->entry, "REAL(", 5) == 0 || strncmp(s->entry, "VECTOR(", 7) == 0);
+        text *keys = keys_of(s, out);
 
         out->unsteady |= s->kind == SYM_SLOT && s->is_rate;
-        if (s->kind == SYM_REAL || s->kind == SYM_VECTOR) {
-            text *keys = is_own ? &out->keys : &out->fluid;
-
+        if (keys)
             text_add(keys, "%s%s = %s", keys->n ? ", " : "", s->name,
-                     s->kind == SYM_REAL ? "1"
-                     : f->only_3d        ? "{1, 0, 0}"
-                                         : "{1, 0}");
-        }
+                     s->rank == 0 ? "1"
+                     : f->only_3d ? "{1, 0, 0}"
+                                  : "{1, 0}");
     }
     out->only_3d = f->only_3d;
 }

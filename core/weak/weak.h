@@ -31,7 +31,7 @@ typedef struct weak_request {
 
 /* What came of it: the source, and what a case has to say. */
 typedef struct weak_result {
-    text fluid;             /* "density = 1": keys of fluid{} that it takes */
+    text fluid;            /* "density = 1": keys of fluid{} that it takes */
     text source, keys;     /* keys: "k = 1, b = {1, 0}", those that must be given and are not of fluid{} */
     int unsteady, only_3d; /* there is a dt(...); a cross product */
     int n_used;

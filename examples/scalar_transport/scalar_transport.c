@@ -5,151 +5,119 @@
  *     rho c (dT/dt + u . grad T) = div(k grad T),     rho Du/dt = ... + rho (1 - beta (T - T_ref)) g.
  *
  * A plugin outside plugflow's own tree: a field of its own, T, and terms that couple it to the
- * velocity u of momentum.  The equations stand in equations.h. */
-#include <plugflow/fluid.h>
-
-#include <tgmath.h>
-
-struct heat {
-    double conductivity;          /* k, W/(m K)    */
-    double heat_capacity;         /* c, J/(kg K)   */
-    double density;               /* rho, kg/m^3   */
-    double expansion;             /* beta, 1/K     */
-    double reference_temperature; /* T_ref, K      */
-    double gravity[3];            /* g, m/s^2      */
-};
+ * velocity u of momentum. */
+#include <plugflow/term.h>
 
 #define NO_ZERO          1e-300 /* so that fluid without conductivity may be at rest */
 #define INVERSE_ESTIMATE 60.0   /* C in h |lap s| <= sqrt(C) |grad s| of second-order elements */
 
-#include <plugflow/twin_real.h>
-#include "equations.h"
-#include <plugflow/twin_complex.h>
-#include "equations.h"
+/* The keys; each term lists its own. */
+#define CONDUCTIVITY REAL(conductivity, "W/(m K)", "thermal conductivity", .flags = PF_REQUIRED, PF_NOT_NEGATIVE)
+#define HEAT_CAPACITY                                                                                              \
+    REAL(heat_capacity, "J/(kg K)", "heat capacity per mass", .flags = PF_REQUIRED, PF_NOT_NEGATIVE)
+#define EXPANSION REAL(expansion, "1/K", "relative change of volume with temperature", .dflt = 0)
+#define REFERENCE REAL(reference_temperature, "K", "temperature at which density holds", .dflt = 0)
 
-/* d(advection)/du = rho c grad T and d(advection)/d(grad T) = rho c u.  The other terms leave
- * their derivatives to the complex twins. */
-static int advection_jacobian(const pf_batch *b, const double *const *in, double *const *jac)
+/* rho c dT/dt s.  The example is one point, worked out by hand; its parameters are in the order of the keys. */
+TERM(storage, PF_FLUID, IN(T_t), OUT(s), PARAMS(HEAT_CAPACITY, DENSITY), .flags = PF_LINEAR,
+     .doc = "\\rho c\\,\\partial_t T\\,s", .cite = "Bird, Stewart, Lightfoot (2002), 11.2",
+     PF_EXAMPLES({"c = 4, rho = 2: 4*2*3", 2, (double[]){4, 2}, (double[]){3}, (double[]){24}, 1e-15}))
 {
-    const struct heat *h = b->params;
-    const double *restrict u = in[0], *restrict grad_T = in[1];
-    double *restrict ds_du = jac[0], *restrict ds_dgrad = jac[1];
-
-    for (uint32_t k = 0; k < b->dim; k++)
-        PF_LANES_OF (b, i) {
-            ds_du[k * LD + i] = h->density * h->heat_capacity * grad_T[k * LD + i];
-            ds_dgrad[k * LD + i] = h->density * h->heat_capacity * u[k * LD + i];
-        }
-    return PF_OK;
+    LANES (i)
+        s[i] = density * heat_capacity * T_t[i];
 }
 
-/* Each term lists its own keys; all go into the same struct. */
-#define CONDUCTIVITY                                                                                               \
-    PF_NUMBER(struct heat, conductivity, "W/(m K)", "thermal conductivity", .flags = PF_REQUIRED, PF_NOT_NEGATIVE)
-#define HEAT_CAPACITY                                                                                              \
-    PF_NUMBER(struct heat, heat_capacity, "J/(kg K)", "heat capacity per mass", .flags = PF_REQUIRED,              \
-              PF_NOT_NEGATIVE)
-#define EXPANSION PF_NUMBER(struct heat, expansion, "1/K", "relative change of volume with temperature", .dflt = 0)
-#define REFERENCE                                                                                                  \
-    PF_NUMBER(struct heat, reference_temperature, "K", "temperature at which density holds", .dflt = 0)
+/* rho c (u . grad T) s */
+TERM(advection, PF_FLUID, IN(u, grad_T), OUT(s), PARAMS(HEAT_CAPACITY, DENSITY), .flags = PF_CONTINUATION,
+     .jacobian = advection_jacobian, .doc = "\\rho c\\,(u\\cdot\\nabla T)\\,s",
+     .cite = "Bird, Stewart, Lightfoot (2002), 11.2",
+     PF_EXAMPLES({"u = (1, -2), grad T = (3, 5): 4*2*(1*3 - 2*5)", 2, (double[]){4, 2}, (double[]){1, -2, 3, 5},
+                  (double[]){-56}, 1e-15}))
+{
+    LANES (i) {
+        s[i] = 0;
+        EACH (k)
+            s[i] += density * heat_capacity * u[k][i] * grad_T[k][i];
+    }
+}
 
-static const pf_term storage = {
-    PF_TERM(storage),
-    .where = PF_FLUID,
-    .flags = PF_LINEAR,
-    .doc = "\\rho c\\,\\partial_t T\\,s",
-    .cite = "Bird, Stewart, Lightfoot (2002), 11.2",
-    PF_IN({"T_t", "T", PF_DOT, PF_SCALAR}),
-    PF_OUT({"s", "T", PF_VALUE, PF_SCALAR}),
-    PF_PARAMS(struct heat, HEAT_CAPACITY, PF_DENSITY(struct heat)),
-    /* one point, worked out by hand; parameters in the order of the keys */
-    PF_EXAMPLES({"c = 4, rho = 2: 4*2*3", 2, (double[]){4, 2}, (double[]){3}, (double[]){24}, 1e-15}),
-};
+/* By hand, as an example; the other terms leave their derivatives to the complex twins. */
+JACOBIAN(advection, IN(u, grad_T), PARAMS(HEAT_CAPACITY, DENSITY), BLOCKS(BLOCK(s, u), BLOCK(s, grad_T)))
+{
+    LANES (i)
+        EACH (k) {
+            ds_du[k][i] = density * heat_capacity * grad_T[k][i];
+            ds_dgrad_T[k][i] = density * heat_capacity * u[k][i];
+        }
+}
 
-static const pf_term advection = {
-    PF_TERM(advection),
-    .where = PF_FLUID,
-    .flags = PF_CONTINUATION,
-    .doc = "\\rho c\\,(u\\cdot\\nabla T)\\,s",
-    .cite = "Bird, Stewart, Lightfoot (2002), 11.2",
-    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"grad_T", "T", PF_GRAD, PF_VECTOR}),
-    PF_OUT({"s", "T", PF_VALUE, PF_SCALAR}),
-    PF_PARAMS(struct heat, HEAT_CAPACITY, PF_DENSITY(struct heat)),
-    PF_EXAMPLES({"u = (1, -2), grad T = (3, 5): 4*2*(1*3 - 2*5)", 2, (double[]){4, 2}, (double[]){1, -2, 3, 5},
-                 (double[]){-56}, 1e-15}),
-    .jacobian = advection_jacobian,
-};
+/* k grad T . grad s */
+TERM(diffusion, PF_FLUID, IN(grad_T), OUT(grad_s), PARAMS(CONDUCTIVITY), .flags = PF_LINEAR,
+     .doc = "k\\,\\nabla T\\cdot\\nabla s", .cite = "Fourier's law; Carslaw, Jaeger (1959), 1.6",
+     PF_EXAMPLES({"k = 3, grad T = (1, -2, 5)", 3, (double[]){3}, (double[]){1, -2, 5}, (double[]){3, -6, 15},
+                  1e-15}))
+{
+    EACH (k)
+        LANES (i)
+            grad_s[k][i] = conductivity * grad_T[k][i];
+}
 
-static const pf_term diffusion = {
-    PF_TERM(diffusion),
-    .where = PF_FLUID,
-    .flags = PF_LINEAR,
-    .doc = "k\\,\\nabla T\\cdot\\nabla s",
-    .cite = "Fourier's law; Carslaw, Jaeger (1959), 1.6",
-    PF_IN({"grad_T", "T", PF_GRAD, PF_VECTOR}),
-    PF_OUT({"grad_s", "T", PF_GRAD, PF_VECTOR}),
-    PF_PARAMS(struct heat, CONDUCTIVITY),
-    PF_EXAMPLES(
-        {"k = 3, grad T = (1, -2, 5)", 3, (double[]){3}, (double[]){1, -2, 5}, (double[]){3, -6, 15}, 1e-15}),
-};
+/* tau (rho c (dT/dt + u . grad T) - k lap T) rho c (w . grad s),   rho c tau = rho c / sqrt(m),
+ * m = (rho c)^2 (4 s^2 + w . G w) + C k^2 G : G, with the metric G and the factor s of the time scheme.  w is the
+ * velocity; in unsteady flow that of a step ago, so that only the residual moves in Newton's method.  The metric of
+ * worked examples is (4 1; 1 2), the factor of the time scheme 15: m = 4 (900 + 214) + 60 22 = 76^2; residual
+ * 2 (13 + 3 - 10) + 7 = 19 */
+TERM(streamline, PF_FLUID, IN(u, old_u, grad_T, lap_T, T_t), OUT(grad_s),
+     PARAMS(CONDUCTIVITY, HEAT_CAPACITY, DENSITY), .flags = PF_OPTIONAL | PF_CONTINUATION | PF_METRIC,
+     .doc =
+         "\\tau\\,(\\rho c\\,\\partial_t T+\\rho c\\,u\\cdot\\nabla T-k\\,\\Delta T)\\,\\rho c\\,w\\cdot\\nabla s",
+     .cite = "Brooks and Hughes 1982, Comput. Methods Appl. Mech. Eng. 32:199",
+     PF_EXAMPLES({"k = 1, rho c = 2; u = (1, -2) is carried by w = (2, 9), grad T = (3, 5), lap T = -7, dT/dt = 13",
+                  2, (double[]){1, 0.5, 4}, (double[]){1, -2, 2, 9, 3, 5, -7, 13}, (double[]){1, 4.5}, 1e-14}))
+{
+    const double rc = density * heat_capacity;
 
-static const pf_term streamline = {
-    PF_TERM(streamline),
-    .where = PF_FLUID,
-    .flags = PF_OPTIONAL | PF_CONTINUATION | PF_METRIC,
-    .doc =
-        "\\tau\\,(\\rho c\\,\\partial_t T+\\rho c\\,u\\cdot\\nabla T-k\\,\\Delta T)\\,\\rho c\\,w\\cdot\\nabla s",
-    .cite = "Brooks and Hughes 1982, Comput. Methods Appl. Mech. Eng. 32:199",
-    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"old_u", "u", PF_OLD, PF_VECTOR}, {"grad_T", "T", PF_GRAD, PF_VECTOR},
-          {"lap_T", "T", PF_LAPLACE, PF_SCALAR}, {"T_t", "T", PF_DOT, PF_SCALAR}),
-    PF_OUT({"grad_s", "T", PF_GRAD, PF_VECTOR}),
-    PF_PARAMS(struct heat, CONDUCTIVITY, HEAT_CAPACITY, PF_DENSITY(struct heat)),
-    /* the metric of worked examples is (4 1; 1 2), the factor of the time scheme 15: m = 4 (900 + 214) + 60 22 =
-     * 76^2; residual 2 (13 + 3 - 10) + 7 = 19 */
-    PF_EXAMPLES({"k = 1, rho c = 2; u = (1, -2) is carried by w = (2, 9), grad T = (3, 5), lap T = -7, dT/dt = 13",
-                 2, (double[]){1, 0.5, 4}, (double[]){1, -2, 2, 9, 3, 5, -7, 13}, (double[]){1, 4.5}, 1e-14}),
-};
+    LANES (i) {
+        NUM r = rc * T_t[i] - conductivity * lap_T[i], m = 4 * rc * rc * b->shift * b->shift + NO_ZERO, w[3];
 
-static const pf_term buoyancy = {
-    PF_TERM(buoyancy),
-    .where = PF_FLUID,
-    .flags = PF_LINEAR | PF_CONTINUATION,
-    .doc = "\\rho\\beta\\,(T-T_{ref})\\,g\\cdot v",
-    .cite = "Gray, Giorgini, Int. J. Heat Mass Transfer 19 (1976) 545-551",
-    PF_IN({"T", "T", PF_VALUE, PF_SCALAR}),
-    PF_OUT({"v", "u", PF_VALUE, PF_VECTOR}),
-    PF_PARAMS(struct heat, PF_DENSITY(struct heat), EXPANSION, REFERENCE, PF_GRAVITY(struct heat)),
-    PF_EXAMPLES({"hot rises: T - T_ref = 10, 2*0.5*10*(0, -3)", 2, (double[]){2, 0.5, 300, 0, -3}, (double[]){310},
-                 (double[]){0, -30}, 1e-15}),
-};
+        EACH (j)
+            w[j] = b->shift > 0 ? old_u[j][i] : u[j][i];
+        EACH (j) {
+            r += rc * u[j][i] * grad_T[j][i];
+            EACH (k) {
+                const double g_jk = AT(b->metric, j, k);
 
-static const pf_term heat_flux = {
-    PF_TERM(heat_flux),
-    .where = PF_FACET,
-    .flags = PF_LINEAR | PF_BY_BOUNDARY,
-    .doc = "-q\\,s",
-    .cite = "Carslaw, Jaeger (1959), 1.9",
-    PF_IN({"heat_flux", NULL, PF_DATA, PF_SCALAR}),
-    PF_OUT({"s", "T", PF_VALUE, PF_SCALAR}),
-    PF_EXAMPLES({"q = 7", 2, NULL, (double[]){7}, (double[]){-7}, 1e-15}),
-};
+                m += rc * rc * w[j] * g_jk * w[k] + INVERSE_ESTIMATE * conductivity * conductivity * g_jk * g_jk;
+            }
+        }
+        EACH (k)
+            grad_s[k][i] = rc / sqrt(m) * r * w[k];
+    }
+}
+
+/* rho beta (T - T_ref) g . v, what remains of -rho(T) g . v beside the -rho g . v of momentum */
+TERM(buoyancy, PF_FLUID, IN(T), OUT(v), PARAMS(DENSITY, EXPANSION, REFERENCE, GRAVITY),
+     .flags = PF_LINEAR | PF_CONTINUATION, .doc = "\\rho\\beta\\,(T-T_{ref})\\,g\\cdot v",
+     .cite = "Gray, Giorgini, Int. J. Heat Mass Transfer 19 (1976) 545-551",
+     PF_EXAMPLES({"hot rises: T - T_ref = 10, 2*0.5*10*(0, -3)", 2, (double[]){2, 0.5, 300, 0, -3}, (double[]){310},
+                  (double[]){0, -30}, 1e-15}))
+{
+    EACH (a)
+        LANES (i)
+            v[a][i] = density * expansion * (T[i] - reference_temperature) * gravity[a];
+}
+
+/* -q s on the boundary, q > 0 into the fluid */
+TERM(heat_flux, PF_FACET, IN(DATA(heat_flux, SCALAR)), OUT(s), PARAMS(), .flags = PF_LINEAR | PF_BY_BOUNDARY,
+     .doc = "-q\\,s", .cite = "Carslaw, Jaeger (1959), 1.9",
+     PF_EXAMPLES({"q = 7", 2, NULL, (double[]){7}, (double[]){-7}, 1e-15}))
+{
+    LANES (i)
+        s[i] = -heat_flux[i];
+}
 
 /* u as momentum declares it, T for the first time. */
-static const pf_plugin scalar_transport = {
-    PF_PLUGIN,
-    .min_minor = 3,
-    .name = "scalar_transport",
-    .version = "1.0",
-    .author = "plugflow",
-    .license = "GPL-3.0-or-later",
-    .doc = "transport of heat by a fluid, and its buoyancy (Boussinesq)",
-    PF_FIELDS(PF_FIELD_VELOCITY, {.name = "T",
-                                  .unit = "K",
-                                  .doc = "temperature",
-                                  .shape = PF_SCALAR,
-                                  .order = 2,
-                                  .reaction = "heat",
-                                  .reaction_unit = "W"}),
-    PF_TERMS(&storage, &advection, &diffusion, &streamline, &buoyancy, &heat_flux),
-};
-PF_ENTRY(scalar_transport)
+PLUGIN(scalar_transport, "transport of heat by a fluid, and its buoyancy (Boussinesq)", FIELDS(u, T),
+       TERMS(storage, advection, diffusion, streamline, buoyancy, heat_flux), .min_minor = 3, .author = "plugflow",
+       .license = "GPL-3.0-or-later")
+#include PF_TWIN

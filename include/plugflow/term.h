@@ -27,9 +27,12 @@
  * --- In a term ---
  * IN(...), OUT(...)      slots, see "Slots" below: standard ones by their names, u, grad_u, p, ...
  * PARAMS(...)            keys of the term's line: REAL, VECTOR, INT, SWITCH, CHOICE, or DENSITY, VISCOSITY, ...
- * .flags = ..., and so on: all other members of pf_term.  NAME_check, NAME_reach, NAME_jacobian, NAME_init and
- *                        NAME_done are declared (not static), to be named here and defined below, in #if PF_ONCE;
- *                        there the parameters are the members of struct NAME_params
+ * .flags = ..., and so on: all other members of pf_term
+ * CHECK(stress, PARAMS(...)) { REFUSE_UNLESS(n > 0, "n is %g; ...", n); }
+ * REACH(force, PARAMS(...)) { return range * h; }
+ *                        after the term, which has .check = stress_check, .reach = force_reach: what is wrong with
+ *                        parameters; the gap beyond which a term on pairs does nothing (`size` of the body, `h` of
+ *                        cells).  NAME_init and NAME_done are declared, too, to be defined in #if PF_ONCE
  * --- By hand, where speed matters: without it the complex numbers give the derivatives ---
  * JACOBIAN(convection, IN(u, grad_u), PARAMS(DENSITY), BLOCKS(BLOCK(v, u), BLOCK(v, grad_u)))
  *                        after the term, which has .jacobian = convection_jacobian; in its block dv_du[a][k][i] is
@@ -37,6 +40,7 @@
  * --- In its block ---
  * LANES (i)              for all points of the batch, i
  * EACH (a)               for all directions of space, a
+ * EACH_SPIN (a)          for all components of a spin: 1 in 2D, 3 in 3D
  * DIM                    2 or 3
  * AT(b->normal, a)       component a at lane i of what the batch b has: x, arm, normal, centre, ...; AT(b->axes, a,
  * k) FAIL(PF_RETRY, ...)    leaves: point i cannot be computed, and why, as in printf sqrt exp log sin cos tan tanh
@@ -66,9 +70,10 @@
 #define PF_TWIN __FILE_NAME__
 #endif
 
-#define LANES(i) PF_LANES_OF (b, i)
-#define EACH(a)  for (uint32_t a = 0; a < b->dim; a++)
-#define DIM      (b->dim)
+#define LANES(i)     PF_LANES_OF (b, i)
+#define EACH(a)      for (uint32_t a = 0; a < b->dim; a++)
+#define EACH_SPIN(a) for (uint32_t a = 0; a < (b->dim == 2 ? 1u : 3u); a++)
+#define DIM          (b->dim)
 
 #define AT(...)                  PF_PICK(__VA_ARGS__, PF_AT2, PF_AT1, )(__VA_ARGS__)
 #define PF_PICK(a, b, c, d, ...) d
@@ -84,7 +89,8 @@
 /* --- Slots: VALUE(u), GRAD(u), DIV(u), DOT(u), OLD(u), LAPLACE(u) are u, grad_u, div_u, u_t, old_u, lap_u; the
  * test function of u: TEST(u, v), GRAD_TEST(u, v), DIV_TEST(u, v) are v, grad_v, div_v.  Those of the standard
  * fields go by their names alone.  A new field: #define PF_SHAPE_tau SYMMETRIC, and then VALUE(tau), ...  What is
- * left, in full: SLOT(dU, U, DEFECT, VECTOR).  Others: DATA(flux, SCALAR), PROPERTY(viscosity, "Pa s"),
+ * left, in full: SLOT(dU, U, DEFECT, VECTOR).  Others: DATA(flux, SCALAR), PROPERTY(viscosity, "Pa s")
+ * to publish it, PROPERTY_AS(k, conductivity, "W/(m K)") to take it as k, rho and mu being those of fluid{},
  * BODY_KEY(charge, "C", doc), STATE(name, field, SHAPE), SHOW(rate, SCALAR, "1/s", doc), INTEGRAL(power, SCALAR,
  * "W", doc); after them members of pf_slot. --- */
 #define PF_SLOT_VALUE(F)                            PF_SHAPE_##F, F, #F, PF_VALUE
@@ -99,6 +105,8 @@
 #define PF_SLOT_SLOT(NAME, FIELD, EVAL, SHAPE, ...) SHAPE, NAME, #FIELD, PF_##EVAL, __VA_ARGS__
 #define PF_SLOT_DATA(NAME, SHAPE, ...)              SHAPE, NAME, NULL, PF_DATA, __VA_ARGS__
 #define PF_SLOT_PROPERTY(NAME, UNIT, ...)           SCALAR, NAME, #NAME, PF_PROPERTY, .unit = UNIT, __VA_ARGS__
+#define PF_SLOT_PROPERTY_AS(NAME, PUBLISHED, UNIT, ...)                                                            \
+    SCALAR, NAME, #PUBLISHED, PF_PROPERTY, .unit = UNIT, __VA_ARGS__
 #define PF_SLOT_BODY_KEY(NAME, UNIT, DOC, ...)                                                                     \
     SCALAR, NAME, #NAME, PF_BODY_KEY, .unit = UNIT, .doc = DOC, __VA_ARGS__
 #define PF_SLOT_STATE(NAME, FIELD, SHAPE, ...)    SHAPE, NAME, #FIELD, PF_STATE, __VA_ARGS__
@@ -177,6 +185,12 @@
 #define PF_SLOT_xi            PF_SLOT_TEST(omega, xi)
 #define PF_SLOT_eta           PF_SLOT_TEST(lambda, eta)
 #define PF_SLOT_grad_eta      PF_SLOT_GRAD_TEST(lambda, eta)
+
+/* Properties of the fluid, see PF_PROPERTY; the term lists the keys DENSITY and VISCOSITY, too. */
+#define PF_SLOT_rho                                                                                                \
+    SCALAR, rho, "density", PF_PROPERTY, .unit = "kg/m^3", .doc = "mass per volume", .min = 0, .max = 1e30
+#define PF_SLOT_mu                                                                                                 \
+    SCALAR, mu, "viscosity", PF_PROPERTY, .unit = "Pa s", .doc = "dynamic viscosity", .min = 1e-30, .max = 1e30
 
 /* What a slot is in the point function. */
 #define PF_ROWS_SCALAR(NUMBER, NAME)         NUMBER *restrict NAME
@@ -370,9 +384,48 @@
 #define PF_EACH_15(M, X, K, A, ...) M(X, K, A) PF_EACH_14(M, X, K + 1, __VA_ARGS__)
 #define PF_EACH_16(M, X, K, A, ...) M(X, K, A) PF_EACH_15(M, X, K + 1, __VA_ARGS__)
 
-/* In a check: 1 and the message, as in printf, unless it is so.  Needs err and n, as `int (*check)(...)` has them.
- */
-#define PF_REFUSE_UNLESS(SO, ...) ((SO) ? 0 : (snprintf(err, n, __VA_ARGS__), 1))
+/* What is said of parameters and of pairs before there is any point. */
+#define CHECK(NAME, KEYS)                                                                                          \
+    PF_CHECK_ONCE(NAME, KEYS)                                                                                      \
+    PF_CHECK_KEYS(NAME, PF_OPEN_##KEYS)
+#define PF_CHECK_ONCE(NAME, KEYS)                                                                                  \
+    PF_CHECK_KEYS(NAME, PF_OPEN_##KEYS);                                                                           \
+    int NAME##_check(const void *params, char *err, size_t n)                                                      \
+    {                                                                                                              \
+        const struct NAME##_params *pf_keys = params;                                                              \
+        int pf_status = 0;                                                                                         \
+                                                                                                                   \
+        (void)pf_keys;                                                                                             \
+        F(NAME##_check_keys)(&pf_status, err, n PF_EACH(PF_KEY_PASSED, NAME, PF_OPEN_##KEYS));                     \
+        return pf_status;                                                                                          \
+    }
+#define PF_CHECK_KEYS(NAME, KEYS)                                                                                  \
+    PF_UNUSED static void F(NAME##_check_keys)(PF_UNUSED int *pf_status, PF_UNUSED char *pf_err,                   \
+                                               PF_UNUSED size_t pf_room PF_EACH(PF_KEY_ARGUMENT, NAME, KEYS))
+#define REFUSE_UNLESS(SO, ...)                                                                                     \
+    do {                                                                                                           \
+        if (SO)                                                                                                    \
+            break;                                                                                                 \
+        snprintf(pf_err, pf_room, __VA_ARGS__);                                                                    \
+        *pf_status = 1;                                                                                            \
+        return;                                                                                                    \
+    } while (0)
+
+#define REACH(NAME, KEYS)                                                                                          \
+    PF_REACH_ONCE(NAME, KEYS)                                                                                      \
+    PF_REACH_KEYS(NAME, PF_OPEN_##KEYS)
+#define PF_REACH_ONCE(NAME, KEYS)                                                                                  \
+    PF_REACH_KEYS(NAME, PF_OPEN_##KEYS);                                                                           \
+    double NAME##_reach(const void *params, double size, double h)                                                 \
+    {                                                                                                              \
+        const struct NAME##_params *pf_keys = params;                                                              \
+                                                                                                                   \
+        (void)pf_keys;                                                                                             \
+        return F(NAME##_reach_keys)(size, h PF_EACH(PF_KEY_PASSED, NAME, PF_OPEN_##KEYS));                         \
+    }
+#define PF_REACH_KEYS(NAME, KEYS)                                                                                  \
+    PF_UNUSED static double F(NAME##_reach_keys)(PF_UNUSED double size,                                            \
+                                                 PF_UNUSED double h PF_EACH(PF_KEY_ARGUMENT, NAME, KEYS))
 
 /* --- The plugin: PLUGIN(heat, "what it is for", FIELDS(u, T), TERMS(storage, diffusion), .author = "me").  Fields
  * are standard ones, u, p, T, c, phi, U, omega, lambda, or new ones: FIELD(tau, "Pa", "stress", .order = 1), whose
@@ -409,8 +462,8 @@
 #define PF_FIELD_p PF_FIELD_FIELD(p, "Pa", "pressure", .order = 1)
 #define PF_FIELD_T PF_FIELD_FIELD(T, "K", "temperature", .order = 2, .reaction = "heat", .reaction_unit = "W")
 #define PF_FIELD_c                                                                                                 \
-    PF_FIELD_FIELD(c, "mol/m^3", "concentration", .order = 2, .reaction = "flow", .reaction_unit = "mol/s")
-#define PF_FIELD_phi    PF_FIELD_FIELD(phi, "m", "level set", .order = 2)
+    PF_FIELD_FIELD(c, "mol/m^3", "concentration", .order = 2, .reaction = "rate", .reaction_unit = "mol/s")
+#define PF_FIELD_phi    PF_FIELD_FIELD(phi, "1", "share of the second fluid", .order = 2)
 #define PF_FIELD_U      PF_FIELD_FIELD(U, "m/s", "velocity of a particle", .support = PF_ON_PARTICLE)
 #define PF_FIELD_omega  PF_FIELD_FIELD(omega, "rad/s", "angular velocity of a particle", .support = PF_ON_PARTICLE)
 #define PF_FIELD_lambda PF_FIELD_FIELD(lambda, "m/s", "multiplier of the rigid motion", .order = 2)
@@ -494,9 +547,13 @@ static inline double pf_real_min(double x, double y)
 #undef PF_TERM_ONCE
 #undef PF_PLUGIN_ONCE
 #undef PF_JACOBIAN_ONCE
+#undef PF_CHECK_ONCE
+#undef PF_REACH_ONCE
 #define PF_ONCE 0
 #define PF_TWIN "plugflow/twin_complex.h" /* no third time */
 #define PF_TERM_ONCE(...)
 #define PF_PLUGIN_ONCE(...)
 #define PF_JACOBIAN_ONCE(...)
+#define PF_CHECK_ONCE(...)
+#define PF_REACH_ONCE(...)
 #endif

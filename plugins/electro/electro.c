@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Charged and polarised bodies, by the public interface alone: a field that drives charges and turns dipoles, forces
- * between charges and between dipoles, a trap.  Charges and moments are keys of the bodies,
+ * Charged and polarised bodies, by the public interface alone: a field that drives charges and turns dipoles,
+ * forces between charges and between dipoles, a trap.  Charges and moments are keys of the bodies,
  *
  *     particle { charge = 3, moment = {0.1, 0} }        the moment in the body's own axes.
  *
- * In 2D charges and dipoles are lines out of the plane, and everything is per length.  V and xi are the test functions
- * of velocity and angular velocity: the power of a force F is F . V, and what drives stands with a minus. */
+ * In 2D charges and dipoles are lines out of the plane, and everything is per length.  V and xi are the test
+ * functions of velocity and angular velocity: the power of a force F is F . V, and what drives stands with a minus.
+ */
 #include <plugflow/fluid.h>
 
 #include <math.h>
@@ -24,7 +25,8 @@ struct electro {
 static int force(const pf_batch *b, const double *const *in, double *const *out)
 {
     for (uint32_t a = 0; a < b->dim; a++)
-        LANES out[0][a * LD + i] = -in[0][i] * in[1][a * LD + i];
+        LANES
+            out[0][a * LD + i] = -in[0][i] * in[1][a * LD + i];
     return PF_OK;
 }
 
@@ -118,8 +120,9 @@ static void field_of(uint32_t dim, double k, double r, const double n[3], const 
         E[a] = dim == 2 ? 2 * k * (2 * n[a] * along - m[a]) / (r * r) : k * (3 * n[a] * along - m[a]) / (r * r * r);
 }
 
-/* -F . (V1 - V2) - (m1 x E2) . xi1 - (m2 x E1) . xi2:  each turns in the other's field; their torques are no pair of
- * action and reaction, the force makes up for it.  F = grad (m1 . E2) is, with s = 5, c = 3 k / r^4 (in 2D 4, 4 k / r^3),
+/* -F . (V1 - V2) - (m1 x E2) . xi1 - (m2 x E1) . xi2:  each turns in the other's field; their torques are no pair
+ * of action and reaction, the force makes up for it.  F = grad (m1 . E2) is, with s = 5, c = 3 k / r^4 (in 2D 4, 4
+ * k / r^3),
  *
  *     F = c ((n.m2) m1 + (n.m1) m2 + (m1.m2) n - s (n.m1) (n.m2) n) */
 static int dipoles(const pf_batch *b, const double *const *in, double *const *out)
@@ -155,7 +158,8 @@ static int trap(const pf_batch *b, const double *const *in, double *const *out)
 
     (void)in;
     for (uint32_t a = 0; a < b->dim; a++)
-        LANES out[0][a * LD + i] = e->stiffness * (b->centre[a * LD + i] - e->centre[a]);
+        LANES
+            out[0][a * LD + i] = e->stiffness * (b->centre[a * LD + i] - e->centre[a]);
     return PF_OK;
 }
 
@@ -166,8 +170,14 @@ static double everywhere(const void *params, double size, double h)
     return INFINITY;
 }
 
-#define CHARGE(NAME, EVAL) {NAME, "charge", EVAL, PF_SCALAR, .unit = "C", .doc = "charge of the body"}
-#define MOMENT(NAME, EVAL) {NAME, "moment", EVAL, PF_VECTOR, .unit = "C m", .doc = "dipole moment in the body's axes"}
+#define CHARGE(NAME, EVAL)                                                                                         \
+    {                                                                                                              \
+        NAME, "charge", EVAL, PF_SCALAR, .unit = "C", .doc = "charge of the body"                                  \
+    }
+#define MOMENT(NAME, EVAL)                                                                                         \
+    {                                                                                                              \
+        NAME, "moment", EVAL, PF_VECTOR, .unit = "C m", .doc = "dipole moment in the body's axes"                  \
+    }
 #define CONSTANT                                                                                                   \
     PF_NUMBER(struct electro, constant, "N m^2/C^2", "1/(4 pi epsilon) of the fluid", .flags = PF_REQUIRED,        \
               PF_NOT_NEGATIVE)
@@ -248,7 +258,11 @@ static const pf_term trap_term = {
     PF_OUT({"V", "U", PF_VALUE, PF_VECTOR}),
     PF_PARAMS(struct electro,
               PF_NUMBER(struct electro, stiffness, "N/m", "of the trap", .flags = PF_REQUIRED, PF_NOT_NEGATIVE),
-              {.name = "centre", .unit = "m", .doc = "of the trap", .type = PF_T_VECTOR, .flags = PF_REQUIRED,
+              {.name = "centre",
+               .unit = "m",
+               .doc = "of the trap",
+               .type = PF_T_VECTOR,
+               .flags = PF_REQUIRED,
                .offset = offsetof(struct electro, centre)}),
 };
 

@@ -4,7 +4,7 @@
  *
  *     rho c (dT/dt + u . grad T) = div(k grad T) + q,     rho Du/dt = ... + rho (1 - beta (T - T_ref)) g.
  *
- * Bodies in the fluid are the subject of the plugin heat_bodies. */
+ * Bodies with sharp surfaces keep no heat and let none pass; what else they may do the plugin heat_bodies says. */
 #include <plugflow/term.h>
 
 #define NO_ZERO          1e-300 /* so that fluid without conductivity may be at rest */
@@ -115,7 +115,19 @@ TERM(heat_flux, PF_FACET, IN(DATA(heat_flux, SCALAR)), OUT(s), PARAMS(), .flags 
         s[i] = -heat_flux[i];
 }
 
+/* (g_k k/h^2 + g_t rho c c0/dt) dT ds;  d: what differs from the polynomial of the root. */
+TERM(tie, PF_CUT, IN(SLOT(dT, T, DEFECT, SCALAR)), OUT(SLOT(ds, T, DEFECT, SCALAR)),
+     PARAMS(CONDUCTIVITY, HEAT_CAPACITY, DENSITY,
+            REAL(g_k, "1", "tie of the temperature, in k/h^2", .dflt = 0.1, PF_NOT_NEGATIVE),
+            REAL(g_t, "1", "tie of the temperature, in rho c c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)),
+     .flags = PF_LINEAR, .doc = "(g_k k/h^2+g_t\\rho c\\,c_0/\\Delta t)(T-ET)(s-Es)",
+     .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)")
+{
+    LANES (i)
+        ds[i] = (g_k * conductivity / (b->h[i] * b->h[i]) + g_t * density * heat_capacity * b->shift) * dT[i];
+}
+
 PLUGIN(heat, "heat carried and conducted by a fluid, and buoyancy", FIELDS(T, u),
-       TERMS(storage, advection, diffusion, source, streamline, buoyancy, heat_flux), .author = "plugflow",
+       TERMS(storage, advection, diffusion, source, streamline, buoyancy, heat_flux, tie), .author = "plugflow",
        .license = "GPL-3.0-or-later")
 #include PF_TWIN

@@ -11,25 +11,11 @@
 #define PF_SHAPE_T_body SCALAR
 #define GIVEN           .flags = PF_REQUIRED | PF_SHARED, PF_NOT_NEGATIVE
 #define CONDUCTIVITY    REAL(conductivity, "W/(m K)", "thermal conductivity", GIVEN)
-#define HEAT_CAPACITY   REAL(heat_capacity, "J/(kg K)", "heat capacity per mass", GIVEN)
 #define GAMMA           REAL(gamma, "1", "penalty of a jump at surfaces, in k/h", .dflt = 20, PF_NOT_NEGATIVE)
 #define BODY_CONDUCTIVITY                                                                                          \
     REAL(body_conductivity, "W/(m K)", "thermal conductivity of the bodies", .flags = PF_REQUIRED, PF_NOT_NEGATIVE)
 #define BODY_HEAT_CAPACITY                                                                                         \
     REAL(body_heat_capacity, "J/(kg K)", "heat capacity per mass of the bodies", PF_NOT_NEGATIVE)
-
-/* (g_k k/h^2 + g_t rho c c0/dt) dT ds;  d: what differs from the polynomial of the root.  h = 1/2 and c0/dt = 15 in
- * worked examples. */
-TERM(tie, PF_CUT, IN(SLOT(dT, T, DEFECT, SCALAR)), OUT(SLOT(ds, T, DEFECT, SCALAR)),
-     PARAMS(CONDUCTIVITY, HEAT_CAPACITY, DENSITY,
-            REAL(g_k, "1", "tie of the temperature, in k/h^2", .dflt = 0.1, PF_NOT_NEGATIVE),
-            REAL(g_t, "1", "tie of the temperature, in rho c c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)),
-     .flags = PF_LINEAR, .doc = "(g_k k/h^2+g_t\\rho c\\,c_0/\\Delta t)(T-ET)(s-Es)",
-     .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)")
-{
-    LANES (i)
-        ds[i] = (g_k * conductivity / (b->h[i] * b->h[i]) + g_t * density * heat_capacity * b->shift) * dT[i];
-}
 
 /* What fluid with this slope of T loses to a surface that is colder by w, -k dT/dn + gamma k/h w at lane i, and
  * what grad s gets, k n w: Nitsche's method with the skew sign */
@@ -115,6 +101,6 @@ TERM(source, PF_SOLID, IN(DATA(heat_source, SCALAR)), OUT(TEST(T_body, s_b)), PA
 
 PLUGIN(heat_bodies, "bodies that conduct heat, hold a temperature, or give off heat",
        FIELDS(T, FIELD(T_body, "K", "temperature of bodies", .order = 2, .support = PF_IN_PARTICLES)),
-       TERMS(tie, surface_temperature, surface_flux, interface, conduction, continuation, storage, source),
+       TERMS(surface_temperature, surface_flux, interface, conduction, continuation, storage, source),
        .author = "plugflow", .license = "GPL-3.0-or-later")
 #include PF_TWIN

@@ -5,7 +5,8 @@
  * the interface, phi = 1/2, across which phi = 1/(1 + exp(d/e)). */
 #include <plugflow/term.h>
 
-#define FLAT 0.01 /* e |grad phi| where the fluids count as unmixed */
+#define FLAT  0.01 /* e |grad phi| where the fluids count as unmixed */
+#define SLACK 1e-4 /* the same for the tension, of which nothing may be lost */
 
 #define NEEDED       .flags = PF_REQUIRED, PF_NOT_NEGATIVE
 #define THICKNESS    REAL(thickness, "m", "e of phi = 1/(1 + exp(d/e)); a third of a cell or more", NEEDED)
@@ -13,10 +14,10 @@
 #define TENSION      REAL(tension, "N/m", "tension of the interface", PF_NOT_NEGATIVE)
 #define OF_SECOND(X) X " of the second fluid"
 
-/* |grad phi| at lane i; where the fluids are all but unmixed it levels off, so that n dies out there */
-static inline NUM F(steepness)(const pf_batch *b, const NUM *grad_phi, double e, uint32_t i)
+/* |grad phi| at lane i, which levels off at `least`, so that n dies out where the fluids are unmixed */
+static inline NUM F(steepness)(const pf_batch *b, const NUM *grad_phi, double least, uint32_t i)
 {
-    NUM sum = FLAT * FLAT / (e * e);
+    NUM sum = least * least;
 
     EACH (k)
         sum += AT(grad_phi, k) * AT(grad_phi, k);
@@ -46,7 +47,8 @@ TERM(compression, PF_FLUID, IN(phi, grad_phi), OUT(grad_test_phi), PARAMS(THICKN
                   (double[]){6 * (1.0 / 1200 - 3.0 / 208), -8 * (1.0 / 1200 - 3.0 / 208)}, 1e-14}))
 {
     LANES (i) {
-        const NUM c = speed * (thickness - phi[i] * (1 - phi[i]) / F(steepness)(b, grad_phi[0], thickness, i));
+        const NUM c =
+            speed * (thickness - phi[i] * (1 - phi[i]) / F(steepness)(b, grad_phi[0], FLAT / thickness, i));
 
         EACH (k)
             grad_test_phi[k][i] = c * grad_phi[k][i];
@@ -61,7 +63,7 @@ TERM(tension, PF_FLUID, IN(grad_phi), OUT(grad_v), PARAMS(TENSION, THICKNESS),
                   (double[]){3, -4}, (double[]){32, 24, 24, 18}, 1e-14}))
 {
     LANES (i) {
-        const NUM steep = F(steepness)(b, grad_phi[0], thickness, i);
+        const NUM steep = F(steepness)(b, grad_phi[0], SLACK / thickness, i);
 
         EACH (a)
             EACH (k)
@@ -99,15 +101,39 @@ TERM(momentum, PF_FLUID, IN(phi, u_t, u, grad_u, p), OUT(v, grad_v),
 
 /* g (c/h + c0/dt) dphi ds;  d: what differs from the polynomial of the root */
 TERM(tie, PF_CUT, IN(SLOT(dphi, phi, DEFECT, SCALAR)), OUT(SLOT(ds, phi, DEFECT, SCALAR)),
-     PARAMS(SPEED, REAL(g, "1", "tie of phi, in c/h and c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)),
-     .flags = PF_LINEAR | PF_OPTIONAL, .doc = "g(c/h+c_0/\\Delta t)(\\phi-E\\phi)(s-Es)",
+     PARAMS(SPEED, REAL(g, "1", "tie of phi, in c/h and c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)), .flags = PF_LINEAR,
+     .doc = "g(c/h+c_0/\\Delta t)(\\phi-E\\phi)(s-Es)",
      .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)")
 {
     LANES (i)
         ds[i] = g * (speed / b->h[i] + b->shift) * dphi[i];
 }
 
+/* Of the second fluid: area, or volume; its first moments, momentum over its density; and the length, or area, of
+ * the interface, by the integral of |grad phi| over all levels */
+TERM(measures, PF_FLUID, IN(phi, grad_phi, u),
+     OUT(INTEGRAL(share, SCALAR, "m^3", OF_SECOND("volume")),
+         INTEGRAL(moment, VECTOR, "m^4", OF_SECOND("moment of the volume")),
+         INTEGRAL(flow, VECTOR, "m^4/s", OF_SECOND("volume times velocity")),
+         INTEGRAL(interface, SCALAR, "m^2", "area of the interface")),
+     PARAMS(), .flags = PF_OPTIONAL, .doc = "\\phi,\\quad \\phi\\,x,\\quad \\phi\\,u,\\quad |\\nabla\\phi|",
+     .cite = "Hysing et al. 2009, Int. J. Numer. Meth. Fluids 60:1259")
+{
+    LANES (i) {
+        NUM steep2 = 0;
+
+        share[i] = phi[i];
+        EACH (k) {
+            moment[k][i] = phi[i] * AT(b->x, k);
+            flow[k][i] = phi[i] * u[k][i];
+            steep2 += grad_phi[k][i] * grad_phi[k][i];
+        }
+        interface[i] = sqrt(steep2);
+    }
+}
+
 PLUGIN(level_set, "two fluids that do not mix",
        FIELDS(u, p, FIELD(phi, "1", "share of the second fluid", .order = 2)),
-       TERMS(transport, compression, tension, momentum, tie), .author = "plugflow", .license = "GPL-3.0-or-later")
+       TERMS(transport, compression, tension, momentum, tie, measures), .author = "plugflow",
+       .license = "GPL-3.0-or-later")
 #include PF_TWIN

@@ -23,7 +23,7 @@ struct streamline {
 };
 
 /* Inputs of streamline */
-enum { U, OLD_U, GRAD_U, LAP_U, GRAD_P, U_T, FORCE };
+enum { U, OLD_U, GRAD_U, LAP_U, GRAD_P, U_T, FORCE, RHO, MU };
 
 static inline int is_steady(const pf_batch *b)
 {
@@ -37,35 +37,41 @@ static inline int is_steady(const pf_batch *b)
 
 static int skew_jacobian(const pf_batch *b, const double *const *in, double *const *jac)
 {
-    const struct stabilise *s = b->params;
-    const double *restrict u = in[0], *restrict div_u = in[1];
-    double *restrict dv_du = jac[0], *restrict dv_ddiv = jac[1];
+    const double *restrict u = in[0], *restrict div_u = in[1], *restrict rho = in[2];
+    double *restrict dv_du = jac[0], *restrict dv_ddiv = jac[1], *restrict dv_drho = jac[2];
 
     for (uint32_t a = 0; a < b->dim; a++)
         PF_LANES_OF (b, i) {
-            dv_du[(a * b->dim + a) * LD + i] = 0.5 * s->density * div_u[i];
-            dv_ddiv[a * LD + i] = 0.5 * s->density * u[a * LD + i];
+            dv_du[(a * b->dim + a) * LD + i] = 0.5 * rho[i] * div_u[i];
+            dv_ddiv[a * LD + i] = 0.5 * rho[i] * u[a * LD + i];
+            dv_drho[a * LD + i] = 0.5 * div_u[i] * u[a * LD + i];
         }
     return PF_OK;
 }
 
-/* f = r^2/sqrt(m), m = r^2 + mu^2;  df/dw = rho^2 h^2 w (r^2 + 2 mu^2)/m^(3/2), which counts where w is u */
+/* f = r^2/sqrt(m), m = r^2 + mu^2;  df/dw = rho^2 h^2 w (r^2 + 2 mu^2)/m^(3/2), which counts where w is u;
+ * df/drho = rho h^2 w^2 (r^2 + 2 mu^2)/m^(3/2), df/dmu = -mu r^2/m^(3/2) */
 static int grad_div_jacobian(const pf_batch *b, const double *const *in, double *const *jac)
 {
     const struct stabilise *s = b->params;
-    const double *restrict w = is_steady(b) ? in[0] : in[1], *restrict div_u = in[2];
+    const double *restrict w = is_steady(b) ? in[0] : in[1], *restrict div_u = in[2], *restrict rho = in[3],
+                           *restrict mu = in[4];
     const double follows = is_steady(b) ? 1 : 0;
-    double *restrict dq_du = jac[0], *restrict dq_ddiv = jac[2];
+    double *restrict dq_du = jac[0], *restrict dq_ddiv = jac[2], *restrict dq_drho = jac[3],
+                     *restrict dq_dmu = jac[4];
 
     PF_LANES_OF (b, i) {
-        const double rho_h = s->density * b->h[i], mu2 = s->viscosity * s->viscosity + NO_ZERO;
-        double r2 = 0, root, slope;
+        const double rho_h = rho[i] * b->h[i], mu2 = mu[i] * mu[i] + NO_ZERO;
+        double w2 = 0, r2, root, slope;
 
         for (uint32_t k = 0; k < b->dim; k++)
-            r2 += w[k * LD + i] * w[k * LD + i];
-        r2 *= rho_h * rho_h;
+            w2 += w[k * LD + i] * w[k * LD + i];
+        r2 = rho_h * rho_h * w2;
         root = sqrt(r2 + mu2);
-        slope = follows * s->grad_div * rho_h * rho_h * (1 + mu2 / (r2 + mu2)) / root * div_u[i];
+        slope = s->grad_div * (1 + mu2 / (r2 + mu2)) / root * div_u[i];
+        dq_drho[i] = slope * rho[i] * b->h[i] * b->h[i] * w2;
+        dq_dmu[i] = -s->grad_div * mu[i] * r2 / (root * root * root) * div_u[i];
+        slope *= follows * rho_h * rho_h;
         for (uint32_t k = 0; k < b->dim; k++)
             dq_du[k * LD + i] = slope * w[k * LD + i];
         dq_ddiv[i] = s->grad_div * r2 / root;
@@ -73,47 +79,68 @@ static int grad_div_jacobian(const pf_batch *b, const double *const *in, double 
     return PF_OK;
 }
 
-/* Rows of one component of v, d(T r_a w_k), at one point.  */
-static void streamline_row(const pf_batch *b, const double *const *in, double *const *jac, uint32_t a, uint32_t i,
-                           double rho_tau, const double *slope)
-{
-    const struct streamline *s = b->params;
-    const double *restrict u = in[U], *restrict w = is_steady(b) ? u : in[OLD_U], *restrict grad_u = in[GRAD_U];
-    const double r = rho_tau * residual_of_real(b, in, a, i);
-    const uint32_t d = b->dim;
+/* T = c rho m^(-1/2) at a point, and its logarithmic slopes by w, which count where w is u, and by mu; its slope by
+ * rho. */
+struct scale {
+    double T, by_w[3], by_mu, by_rho;
+};
 
-    for (uint32_t k = 0; k < d; k++) {
-        const double c = rho_tau * w[k * LD + i];
-        const uint32_t row = a * d + k;
-
-        for (uint32_t j = 0; j < d; j++) {
-            jac[U][(row * d + j) * LD + i] = s->density * c * grad_u[(a * d + j) * LD + i];
-            if (is_steady(b))
-                jac[U][(row * d + j) * LD + i] += r * ((j == k) + slope[j] * u[k * LD + i]);
-            jac[GRAD_U][(row * d * d + a * d + j) * LD + i] = s->density * c * u[j * LD + i];
-        }
-        jac[LAP_U][(row * d + a) * LD + i] = -s->viscosity * c;
-        jac[GRAD_P][(row * d + a) * LD + i] = c;
-        jac[U_T][(row * d + a) * LD + i] = s->density * c;
-    }
-}
-
-/* T = c rho m^(-1/2) has the logarithmic slope -rho^2 G w / m, which counts where w is u. */
-static int streamline_jacobian(const pf_batch *b, const double *const *in, double *const *jac)
+/* The slopes: -rho^2 G w / m, -C mu G:G / m; c C mu^2 G:G m^(-3/2) */
+static struct scale scale_at(const pf_batch *b, const double *const *in, uint32_t i)
 {
     const struct streamline *s = b->params;
     const double *restrict w = is_steady(b) ? in[U] : in[OLD_U], *restrict g = b->metric;
+    const double m = rate_real(b, in, w, i), rho = in[RHO][i], mu = in[MU][i], c = s->streamline / sqrt(m);
+    struct scale t = {.T = c * rho};
+    double squares = 0;
+
+    for (uint32_t j = 0; j < b->dim; j++)
+        for (uint32_t k = 0; k < b->dim; k++) {
+            const double g_jk = g[(j * b->dim + k) * LD + i];
+
+            t.by_w[j] -= rho * rho / m * g_jk * w[k * LD + i];
+            squares += INVERSE_ESTIMATE * g_jk * g_jk;
+        }
+    t.by_mu = -squares * mu / m;
+    t.by_rho = c * (squares * mu * mu + NO_ZERO) / m;
+    return t;
+}
+
+/* Rows of one component of v, d(T r_a w_k), at one point.  */
+static void streamline_row(const pf_batch *b, const double *const *in, double *const *jac, uint32_t a, uint32_t i,
+                           const struct scale *t)
+{
+    const double *restrict u = in[U], *restrict w = is_steady(b) ? u : in[OLD_U], *restrict grad_u = in[GRAD_U];
+    const double residual = residual_of_real(b, in, a, i), r = t->T * residual, rho = in[RHO][i];
+    const double by_rho = t->by_rho * residual + t->T * acceleration_real(b, in, a, i);
+    const double by_mu = r * t->by_mu - t->T * in[LAP_U][a * LD + i];
     const uint32_t d = b->dim;
 
-    PF_LANES_OF (b, i) {
-        const double m = rate_real(b, w, i), rho_tau = s->streamline * s->density / sqrt(m);
-        double slope[3] = {0};
+    for (uint32_t k = 0; k < d; k++) {
+        const double c = t->T * w[k * LD + i];
+        const uint32_t row = a * d + k;
 
-        for (uint32_t j = 0; j < d; j++)
-            for (uint32_t k = 0; k < d; k++)
-                slope[j] -= s->density * s->density / m * g[(j * d + k) * LD + i] * w[k * LD + i];
-        for (uint32_t a = 0; a < d; a++)
-            streamline_row(b, in, jac, a, i, rho_tau, slope);
+        for (uint32_t j = 0; j < d; j++) {
+            jac[U][(row * d + j) * LD + i] = rho * c * grad_u[(a * d + j) * LD + i];
+            if (is_steady(b))
+                jac[U][(row * d + j) * LD + i] += r * ((j == k) + t->by_w[j] * u[k * LD + i]);
+            jac[GRAD_U][(row * d * d + a * d + j) * LD + i] = rho * c * u[j * LD + i];
+        }
+        jac[LAP_U][(row * d + a) * LD + i] = -in[MU][i] * c;
+        jac[GRAD_P][(row * d + a) * LD + i] = c;
+        jac[U_T][(row * d + a) * LD + i] = rho * c;
+        jac[RHO][row * LD + i] = by_rho * w[k * LD + i];
+        jac[MU][row * LD + i] = by_mu * w[k * LD + i];
+    }
+}
+
+static int streamline_jacobian(const pf_batch *b, const double *const *in, double *const *jac)
+{
+    PF_LANES_OF (b, i) {
+        const struct scale t = scale_at(b, in, i);
+
+        for (uint32_t a = 0; a < b->dim; a++)
+            streamline_row(b, in, jac, a, i, &t);
     }
     return PF_OK;
 }
@@ -124,10 +151,10 @@ static const pf_term skew = {
     .flags = PF_CONTINUATION,
     .doc = "\\frac12\\rho\\,(\\nabla\\cdot u)\\,u\\cdot v",
     .cite = "Temam 1968, Bull. Soc. Math. France 96:115",
-    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"div_u", "u", PF_DIV, PF_SCALAR}),
+    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"div_u", "u", PF_DIV, PF_SCALAR}, PF_TAKES_DENSITY),
     PF_OUT({"v", "u", PF_VALUE, PF_VECTOR}),
     PF_PARAMS(struct stabilise, PF_DENSITY(struct stabilise)),
-    PF_EXAMPLES({"rho = 2, u = (1, 2), div u = 3", 2, (double[]){2}, (double[]){1, 2, 3}, (double[]){3, 6}, 1e-15}),
+    PF_EXAMPLES({"rho = 2, u = (1, 2), div u = 3", 2, NULL, (double[]){1, 2, 3, 2}, (double[]){3, 6}, 1e-15}),
     .jacobian = skew_jacobian,
 };
 
@@ -137,7 +164,8 @@ static const pf_term grad_div = {
     .flags = PF_CONTINUATION,
     .doc = "c\\,\\frac{r^2}{\\sqrt{r^2+\\mu^2}}\\,(\\nabla\\cdot u)(\\nabla\\cdot v),\\ r=\\rho|w|h",
     .cite = "Olshanskii, Lube, Heister and Löwe 2009, Comput. Methods Appl. Mech. Eng. 198:3975",
-    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"old_u", "u", PF_OLD, PF_VECTOR}, {"div_u", "u", PF_DIV, PF_SCALAR}),
+    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"old_u", "u", PF_OLD, PF_VECTOR}, {"div_u", "u", PF_DIV, PF_SCALAR},
+          PF_TAKES_DENSITY, PF_TAKES_VISCOSITY),
     PF_OUT({"div_v", "u", PF_DIV, PF_SCALAR}),
     PF_PARAMS(struct stabilise, PF_DENSITY(struct stabilise), PF_VISCOSITY(struct stabilise),
               PF_NUMBER(struct stabilise, grad_div, "1", "strength of grad-div, in rho |u| h", .dflt = 0.1,
@@ -157,7 +185,8 @@ static const pf_term streamline = {
         "Appl. Mech. Eng. 197:173",
     PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"old_u", "u", PF_OLD, PF_VECTOR}, {"grad_u", "u", PF_GRAD, PF_TENSOR},
           {"lap_u", "u", PF_LAPLACE, PF_VECTOR}, {"grad_p", "p", PF_GRAD, PF_VECTOR},
-          {"u_t", "u", PF_DOT, PF_VECTOR}, {"force", NULL, PF_DATA, PF_VECTOR}),
+          {"u_t", "u", PF_DOT, PF_VECTOR}, {"force", NULL, PF_DATA, PF_VECTOR}, PF_TAKES_DENSITY,
+          PF_TAKES_VISCOSITY),
     PF_OUT({"grad_v", "u", PF_GRAD, PF_TENSOR}),
     PF_PARAMS(struct streamline, PF_DENSITY(struct streamline), PF_VISCOSITY(struct streamline),
               PF_GRAVITY(struct streamline), PF_REDUCED_PRESSURE(struct streamline),
@@ -168,17 +197,17 @@ static const pf_term streamline = {
     PF_EXAMPLES(
         {"rho = 2, mu = 1, c = 0.1, g = (0, -10); u = (1, 2) is carried by w = (2, 1), grad u = (3 4; 5 6), "
          "lap u = (2, -3), grad p = (7, 1), du/dt = (1, -2), f = (5, 4)",
-         2, (double[]){2, 1, 0, -10, 0, 0.1}, (double[]){1, 2, 2, 1, 3, 4, 5, 6, 2, -3, 7, 1, 1, -2, 5, 4},
+         2, (double[]){2, 1, 0, -10, 0, 0.1}, (double[]){1, 2, 2, 1, 3, 4, 5, 6, 2, -3, 7, 1, 1, -2, 5, 4, 2, 1},
          (double[]){48.0 / 190, 24.0 / 190, 100.0 / 190, 50.0 / 190}, 1e-14},
         {"the same with the reduced pressure: residual (24, 30)", 2, (double[]){2, 1, 0, -10, 1, 0.1},
-         (double[]){1, 2, 2, 1, 3, 4, 5, 6, 2, -3, 7, 1, 1, -2, 5, 4},
+         (double[]){1, 2, 2, 1, 3, 4, 5, 6, 2, -3, 7, 1, 1, -2, 5, 4, 2, 1},
          (double[]){48.0 / 190, 24.0 / 190, 60.0 / 190, 30.0 / 190}, 1e-14}),
     .jacobian = streamline_jacobian,
 };
 
 static const pf_plugin stabilise = {
     PF_PLUGIN,
-    .min_minor = 3,
+    .min_minor = 4,
     .name = "stabilise",
     .version = "1.0",
     .author = "plugflow",

@@ -35,13 +35,14 @@ static inline void F(give)(const pf_batch *b, const NUM *z, uint32_t i, NUM *v, 
 static int F(nitsche)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct surface *s = b->params;
-    const NUM *restrict grad_u = in[1], *restrict p = in[2];
-    const double *restrict n = b->normal, mu = s->viscosity;
+    const NUM *restrict grad_u = in[1], *restrict p = in[2], *restrict viscosity = in[5];
+    const double *restrict n = b->normal;
     const uint32_t dim = b->dim;
     NUM *restrict v = out[0], *restrict grad_v = out[1], *restrict q = out[2], *restrict V = out[3],
                   *restrict xi = out[4];
 
     PF_LANES_OF (b, i) {
+        const NUM mu = viscosity[i];
         NUM w[3], z[3] = {0};
 
         F(slip)(b, in[0], in[3], in[4], i, w);
@@ -66,6 +67,7 @@ static int F(nitsche)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 static int F(inflow)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct inflow *s = b->params;
+    const NUM *restrict rho = in[3];
     const uint32_t dim = b->dim;
     NUM *restrict v = out[0], *restrict V = out[1], *restrict xi = out[2];
 
@@ -77,7 +79,7 @@ static int F(inflow)(const pf_batch *b, const NUM *const *in, NUM *const *out)
             inward += w[a] * b->normal[a * LD + i];
         inward = creal(inward) < 0 ? inward : 0;
         for (uint32_t a = 0; a < dim; a++)
-            z[a] = -s->inflow * s->density * inward * w[a];
+            z[a] = -s->inflow * rho[i] * inward * w[a];
         F(give)(b, z, i, v, V, xi);
     }
     return PF_OK;
@@ -87,16 +89,16 @@ static int F(inflow)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 static int F(extension)(const pf_batch *b, const NUM *const *in, NUM *const *out)
 {
     const struct extension *e = b->params;
-    const NUM *restrict du = in[0], *restrict dp = in[1];
+    const NUM *restrict du = in[0], *restrict dp = in[1], *restrict mu = in[2], *restrict rho = in[3];
     NUM *restrict dv = out[0], *restrict dq = out[1];
 
     for (uint32_t a = 0; a < b->dim; a++)
         PF_LANES_OF (b, i) {
-            const double c = e->g_u * e->viscosity / (b->h[i] * b->h[i]) + e->g_t * e->density * b->shift;
+            const NUM c = e->g_u * mu[i] / (b->h[i] * b->h[i]) + e->g_t * rho[i] * b->shift;
 
             dv[a * LD + i] = c * du[a * LD + i];
         }
     PF_LANES_OF (b, i)
-        dq[i] = e->g_p / e->viscosity * dp[i];
+        dq[i] = e->g_p / mu[i] * dp[i];
     return PF_OK;
 }

@@ -36,7 +36,7 @@ static const pf_term nitsche = {
            "w=u-U-\\omega\\times r",
     .cite = "Freund and Stenberg 1995 (skew form of Nitsche's method); docs/theory.md",
     PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"grad_u", "u", PF_GRAD, PF_TENSOR}, {"p", "p", PF_VALUE, PF_SCALAR},
-          {"U", "U", PF_VALUE, PF_VECTOR}, {"omega", "omega", PF_VALUE, PF_SPIN}),
+          {"U", "U", PF_VALUE, PF_VECTOR}, {"omega", "omega", PF_VALUE, PF_SPIN}, PF_TAKES_VISCOSITY),
     PF_OUT({"v", "u", PF_VALUE, PF_VECTOR}, {"grad_v", "u", PF_GRAD, PF_TENSOR}, {"q", "p", PF_VALUE, PF_SCALAR},
            {"V", "U", PF_VALUE, PF_VECTOR}, {"xi", "omega", PF_VALUE, PF_SPIN}),
     PF_PARAMS(struct surface, PF_VISCOSITY(struct surface),
@@ -49,7 +49,8 @@ static const pf_term inflow = {
     .flags = PF_FLUID_FORCE | PF_CONTINUATION,
     .doc = "-\\beta\\rho\\,(w\\cdot n)_-\\,w\\cdot z",
     .cite = "Bertoglio and Caiazzo 2014, Int. J. Numer. Methods Biomed. Eng. 30:4 (at outflows)",
-    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"U", "U", PF_VALUE, PF_VECTOR}, {"omega", "omega", PF_VALUE, PF_SPIN}),
+    PF_IN({"u", "u", PF_VALUE, PF_VECTOR}, {"U", "U", PF_VALUE, PF_VECTOR}, {"omega", "omega", PF_VALUE, PF_SPIN},
+          PF_TAKES_DENSITY),
     PF_OUT({"v", "u", PF_VALUE, PF_VECTOR}, {"V", "U", PF_VALUE, PF_VECTOR}, {"xi", "omega", PF_VALUE, PF_SPIN}),
     PF_PARAMS(struct inflow, PF_DENSITY(struct inflow),
               PF_NUMBER(struct inflow, inflow, "1",
@@ -63,7 +64,8 @@ static const pf_term extension = {
     .flags = PF_LINEAR,
     .doc = "(g_u\\mu/h^2+g_t\\rho c_0/\\Delta t)(u-Eu)\\cdot(v-Ev)+g_p/\\mu\\,(p-Ep)(q-Eq)",
     .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)",
-    PF_IN({"du", "u", PF_DEFECT, PF_VECTOR}, {"dp", "p", PF_DEFECT, PF_SCALAR}),
+    PF_IN({"du", "u", PF_DEFECT, PF_VECTOR}, {"dp", "p", PF_DEFECT, PF_SCALAR}, PF_TAKES_VISCOSITY,
+          PF_TAKES_DENSITY),
     PF_OUT({"dv", "u", PF_DEFECT, PF_VECTOR}, {"dq", "p", PF_DEFECT, PF_SCALAR}),
     PF_PARAMS(
         struct extension, PF_DENSITY(struct extension), PF_VISCOSITY(struct extension),
@@ -74,7 +76,7 @@ static const pf_term extension = {
 
 static const pf_plugin surface = {
     PF_PLUGIN,
-    .min_minor = 1,
+    .min_minor = 4,
     .name = "surface",
     .version = "1.0",
     .author = "plugflow",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What terms read of bodies, against what it is: the terms of body_probe.c put one number each into the row of their
- * body. */
+ * What terms read of bodies, against what it is: the terms of body_probe.c put one number each into the row of
+ * their body. */
 #include "support/opened.h"
 
 #include <setjmp.h>
@@ -43,16 +43,16 @@ static const char in_3d[] =
     "time { step = 0.1, stop = 1 }\n";
 
 /* One body over a wall. */
-static const char at_wall[] =
-    "local where, what, component = param('where', 'first', ''), param('what', 'x', ''), param('component', 0, '')\n"
-    "mesh { box = {{0, 0}, {2, 2}}, cells = {16, 16} }\n"
-    "fluid { density = 1, viscosity = 1 }\n"
-    "term 'continuity' {}\nterm 'momentum' {}\nparticulate 'sharp'\n"
-    "term 'body_probe.hold' {}\n"
-    "term('body_probe.' .. where) { what = what, component = component }\n"
-    "boundary '*' { u = {0, 0} }\n"
-    "particle { shape = disk { radius = 0.2 }, density = 2, at = {1.1, 0.3} }\n"
-    "time { step = 0.1, stop = 1 }\n";
+static const char at_wall[] = "local where, what, component = param('where', 'first', ''), param('what', 'x', ''), "
+                              "param('component', 0, '')\n"
+                              "mesh { box = {{0, 0}, {2, 2}}, cells = {16, 16} }\n"
+                              "fluid { density = 1, viscosity = 1 }\n"
+                              "term 'continuity' {}\nterm 'momentum' {}\nparticulate 'sharp'\n"
+                              "term 'body_probe.hold' {}\n"
+                              "term('body_probe.' .. where) { what = what, component = component }\n"
+                              "boundary '*' { u = {0, 0} }\n"
+                              "particle { shape = disk { radius = 0.2 }, density = 2, at = {1.1, 0.3} }\n"
+                              "time { step = 0.1, stop = 1 }\n";
 
 static const double fluid[2][6] = {{0.1, 0.2, 0, 0.3}, {-0.4, 0.5, 0, -0.6}};
 static const double fluid_3d[1][6] = {{0.1, 0.2, 0.3, -0.4, -0.5, -0.6}};
@@ -223,7 +223,8 @@ static void a_wall_is_no_body(void **state)
 static void curvature_is_that_of_the_formula(void **state)
 {
     shape ellipse = {.kind = SHAPE_ELLIPSOID, .dim = 2, .half = {0.5, 0.2}, .thickness = 0.4};
-    shape super = {.kind = SHAPE_SUPERELLIPSOID, .dim = 2, .half = {0.5, 0.2}, .exponent = {2, 2}, .thickness = 0.4};
+    shape super = {
+        .kind = SHAPE_SUPERELLIPSOID, .dim = 2, .half = {0.5, 0.2}, .exponent = {2, 2}, .thickness = 0.4};
     shape solid = {.kind = SHAPE_ELLIPSOID, .dim = 3, .half = {0.5, 0.4, 0.3}, .thickness = 0.6};
     shape ball = {.kind = SHAPE_ELLIPSOID, .dim = 3, .half = {0.5, 0.5, 0.5}, .thickness = 1};
     shape cylinder = {.kind = SHAPE_CYLINDER, .dim = 3, .half = {0.5, 0.5, 1}, .thickness = 1};
@@ -313,9 +314,37 @@ static void a_term_sees_pairs_within_its_own_reach(void **state)
     rows(text, (const char *[]){"where=none"}, 1, "c", c);
     assert_true(a[0] == 0 && a[1] == 0);
     assert_true(c[0] == 0 && c[1] == 1);
-    snprintf(text, sizeof text, "%.*sterm 'body_probe.within' { reach = 1e30 }\n%s", (int)(last - in_2d), in_2d, rest);
+    snprintf(text, sizeof text, "%.*sterm 'body_probe.within' { reach = 1e30 }\n%s", (int)(last - in_2d), in_2d,
+             rest);
     rows(text, (const char *[]){"where=none"}, 1, "a", a); /* body 1 is the first of the two; both have two walls */
     assert_true(a[0] == 2 && a[1] == 3);
+}
+
+/* Without bodies, too; on the middle line of the channel cells meet. */
+static void cells_know_how_far_walls_are(void **state)
+{
+    opened *k = open_text("mesh { box = {{0, 0}, {1.5, 1}}, cells = {6, 8} }\n"
+                          "fluid { density = 1, viscosity = 1 }\n"
+                          "term 'continuity' {}\nterm 'momentum' {}\nterm 'body_probe.cells' {}\n"
+                          "boundary { periodic = {'left', 'right'} }\nboundary '*' { u = {0, 0} }\n",
+                          NULL, 0);
+    problem *p = &k->p;
+    int f = space_find_field(&p->space, "s");
+    double *r = calloc((size_t)p->space.n_dof, sizeof *r), sum = 0;
+    error err = {0};
+
+    (void)state;
+    assert_int_equal(problem_initial(p, &err), 0);
+    assert_int_equal(assembly_run(&p->system.assembly,
+                                  &(assembly_state){.x = p->state.x, .dot = p->system.step, .old = p->state.x}, r,
+                                  NULL, 0, &err),
+                     0);
+    for (int64_t d = 0; d < p->space.n_dof; d++)
+        sum -= p->space.dof_field[d] == f ? r[d] : 0;
+    if (!(fabs(sum - 1.5 / 4) < 1e-13))
+        fail_msg("integral of the distance %.15g, expected 0.375", sum);
+    free(r);
+    close_case(k);
 }
 
 int main(void)
@@ -331,6 +360,7 @@ int main(void)
         cmocka_unit_test(a_wall_is_no_body),
         cmocka_unit_test(curvature_is_that_of_the_formula),
         cmocka_unit_test(sides_of_a_pair_are_derived),
+        cmocka_unit_test(cells_know_how_far_walls_are),
         cmocka_unit_test(a_term_sees_pairs_within_its_own_reach),
     };
 

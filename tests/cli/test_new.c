@@ -102,6 +102,7 @@ static void a_wrong_form_is_shown_where_it_is_wrong(void **state)
     refuses("n_x --weak 'grad(2*T)'", 2, "expected a field");
     refuses("n_x --weak ''", 2, "the form ends too early");
     refuses("n_x --weak 'T = 2; T*s'", 2, "has a meaning already");
+    refuses("n_x --weak 'T*s - s*T'", 2, "the form is zero");
     refuses("n_x --weak 'T*s$'", 2, "column 4");
 }
 

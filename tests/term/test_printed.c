@@ -215,7 +215,7 @@ static void derivatives_agree(void **state)
         by_hand += k[0]->p.description.use[i].how == TERM_AUTO && k[0]->p.description.use[i].term->jacobian;
         assert_int_equal(k[1]->p.description.use[i].how, differences ? TERM_FD : TERM_COMPLEX);
     }
-    assert_int_equal(by_hand, 5); /* divergence, inertia, convection, stress, backflow */
+    assert_int_equal(by_hand, 6); /* divergence, inertia, convection, viscous, pressure_gradient, backflow */
 
     for (uint64_t seed = 11; seed < 11 + STATES; seed++) {
         printed_blocks b[2];

@@ -151,7 +151,7 @@ static void powers_of_single_terms_are_known(void **state)
             q.history[d] = -8 * q.x[d]; /* du/dt = 10 u - 8 u */
         evaluate(&q);
         inertia = q.power.use[term(&q, "inertia")];
-        stress = q.power.use[term(&q, "stress")];
+        stress = q.power.use[term(&q, "viscous")];
         convection = q.power.use[term(&q, "convection")];
         assert_near(inertia[POWER_KINETIC], 0.5 * RHO * square, 1e-12);
         assert_near(inertia[POWER_ALL], 2 * RHO * square, 1e-12);

@@ -36,6 +36,21 @@ static void profiles_of_a_channel_converge_with_third_order(void **state)
     }
 }
 
+/* A term with a part of the domain is a term with a coefficient that vanishes elsewhere. */
+static void a_part_of_the_domain_is_a_medium(void **state)
+{
+    double e[2];
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        assert_ran(plugflow("run cases/porous_channel.lua --quiet --set parts=%s --out %s/o", i ? "true" : "false",
+                            scratch()),
+                   0, NULL);
+        e[i] = summary("o", "errors.u.l2");
+    }
+    assert_between(e[1] / e[0] - 1, -1e-9, 1e-9);
+}
+
 /* Without walls the force is balanced by the drag alone: mu/K u + rho c_F/sqrt(K) u^2 = F, here 1 u + 0.5 u^2 = 4,
  * u = 2. */
 static void forchheimer_drag_balances_a_force(void **state)
@@ -70,6 +85,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(profiles_of_a_channel_converge_with_third_order),
+        cmocka_unit_test(a_part_of_the_domain_is_a_medium),
         cmocka_unit_test(forchheimer_drag_balances_a_force),
         cmocka_unit_test(a_negative_permeability_is_refused),
         cmocka_unit_test(the_point_functions_pass_their_tests),

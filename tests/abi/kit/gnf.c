@@ -3,21 +3,21 @@
  * A generalised Newtonian fluid on term.h: power law and Carreau, in place of momentum's stress. */
 #include <plugflow/term.h>
 
-#if PF_ONCE
-enum { POWER_LAW, CARREAU };
-#endif
+#define POWER_LAW 0
+#define CARREAU   1
+
+#define KEYS                                                                                                       \
+    CHOICE(model, "viscosity law", "power_law", "carreau"),                                                        \
+        REAL(consistency, "Pa s^n", "K of K rate^(n-1)", .dflt = 1, PF_NOT_NEGATIVE),                              \
+        REAL(n, "1", "exponent", .dflt = 1, .min = 0, .max = 10),                                                  \
+        REAL(eps, "1/s", "rate that regularises", .dflt = 1e-4, PF_NOT_NEGATIVE),                                  \
+        REAL(mu_0, "Pa s", "viscosity at rest", .dflt = 1, PF_NOT_NEGATIVE),                                       \
+        REAL(mu_inf, "Pa s", "viscosity at infinite rate", PF_NOT_NEGATIVE),                                       \
+        REAL(time, "s", "time constant", .dflt = 1, PF_NOT_NEGATIVE)
 
 /* (2 mu(rate) D - p I) : grad v,   rate^2 = 2 D : D + eps^2 */
-TERM(stress, PF_FLUID, IN(grad_u, p), OUT(grad_v),
-     PARAMS(CHOICE(model, "viscosity law", "power_law", "carreau"),
-            REAL(consistency, "Pa s^n", "K of K rate^(n-1)", .dflt = 1, PF_NOT_NEGATIVE),
-            REAL(n, "1", "exponent", .dflt = 1, .min = 0, .max = 10),
-            REAL(eps, "1/s", "rate that regularises", .dflt = 1e-4, PF_NOT_NEGATIVE),
-            REAL(mu_0, "Pa s", "viscosity at rest", .dflt = 1, PF_NOT_NEGATIVE),
-            REAL(mu_inf, "Pa s", "viscosity at infinite rate", PF_NOT_NEGATIVE),
-            REAL(time, "s", "time constant", .dflt = 1, PF_NOT_NEGATIVE)),
+TERM(stress, PF_FLUID, IN(grad_u, p), OUT(grad_v), PARAMS(KEYS), .check = stress_check,
      .doc = "(2\\mu(\\dot\\gamma)D(u)-pI):\\nabla v", .cite = "Bird, Armstrong, Hassager 1987",
-     .check = stress_check,
      PF_EXAMPLES({"power law, shear 3: mu = 2*3", 2, (double[]){0, 2, 2, 0, 1, 0, 1}, (double[]){0, 3, 0, 0, 7},
                   (double[]){-7, 18, 18, -7}, 1e-14},
                  {"Carreau, time 1, shear sqrt 3: mu = 1 + 4/2", 2, (double[]){1, 2, 0, 0, 5, 1, 1},
@@ -40,15 +40,11 @@ TERM(stress, PF_FLUID, IN(grad_u, p), OUT(grad_v),
     }
 }
 
-#if PF_ONCE
-int stress_check(const void *params, char *err, size_t n)
+CHECK(stress, PARAMS(KEYS))
 {
-    const struct stress_params *p = params;
-
-    return PF_REFUSE_UNLESS(p->model != POWER_LAW || p->consistency > 0, "power_law needs consistency > 0") ||
-           PF_REFUSE_UNLESS(p->model != CARREAU || p->mu_0 > 0, "carreau needs mu_0 > 0");
+    REFUSE_UNLESS(model != POWER_LAW || consistency > 0, "power_law needs consistency > 0");
+    REFUSE_UNLESS(model != CARREAU || mu_0 > 0, "carreau needs mu_0 > 0");
 }
-#endif
 
 PLUGIN(gnf, "generalised Newtonian stress", FIELDS(u, p), TERMS(stress), .author = "plugflow")
 #include PF_TWIN

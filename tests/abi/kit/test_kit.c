@@ -43,6 +43,11 @@ static void a_power_law_channel_is_exact(void **state)
                  scratch()),
         0, "ok");
     assert_between(summary("c", "errors.u.l2"), 0, 1e-5);
+    assert_ran(
+        plugflow("run tests/abi/kit/channel.lua --plugin \"$PLUGFLOW_BUILD/tests/abi/kit/gnf.so\" --out '%s/c' "
+                 "--set consistency=0",
+                 scratch()),
+        3, "power_law needs consistency > 0");
 }
 
 /* By duals and by differences of the assembled residual. */
