@@ -231,7 +231,7 @@ static inline uint32_t assemble_eval(const assembly_class *c, enum basis_kind ki
 {
     static const uint32_t eval[BASIS_KINDS] = {PF_VALUE, PF_GRAD, PF_LAPLACE, PF_VALUE, PF_OTHER};
 
-    return kind == BASIS_VALUE && c->where == PF_PAIR ? PF_DEFECT : eval[kind];
+    return kind == BASIS_VALUE && (c->where == PF_PAIR || c->where == PF_CUT) ? PF_DEFECT : eval[kind];
 }
 
 static inline int assemble_padded(int n)

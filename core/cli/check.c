@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void print_parameters(const case_file *c)
 {
@@ -33,6 +34,32 @@ static void print_conditions(const problem *p)
             }
         printf("%s\n", any ? "" : " no boundary");
     }
+}
+
+/* The terms that take a property from this publisher. */
+static void print_takers(const term_use *use, int n, const term_use *law, const char *property)
+{
+    for (int i = 0; i < n; i++)
+        for (uint32_t k = 0; k < use[i].term->n_in; k++)
+            if (use[i].law[k] == law && strcmp(use[i].term->in[k].field, property) == 0)
+                printf(" %s.%s", use[i].plugin->d.name, use[i].term->name);
+}
+
+/* Who publishes what, and who takes it. */
+static void print_properties(const description *d)
+{
+    for (int i = 0; i < d->law.n; i++)
+        for (uint32_t o = 0; o < d->law.use[i].term->n_out; o++) {
+            const term_use *law = &d->law.use[i];
+            const pf_slot *s = &law->term->out[o];
+
+            printf("  %s (%s, %s): published by %s.%s for", s->field, s->doc, s->unit, law->plugin->d.name,
+                   law->term->name);
+            print_takers(d->use, d->n_use, law, s->field);
+            print_takers(d->law.use, d->law.n, law, s->field);
+            print_takers(d->shown.use, d->shown.n, law, s->field);
+            printf("\n");
+        }
 }
 
 /* Which linear solver, and its predicted price. */
@@ -85,6 +112,7 @@ static int check(const problem *p, const linear *l, int json)
         describe_tell_replaced(&p->description, i, replaced, sizeof replaced);
         printf("    %s\n", replaced);
     }
+    print_properties(&p->description);
     print_conditions(p);
     printf("  unknowns: %lld, of which %lld are free; matrix: %lld entries, %.3g MB\n", (long long)p->space.n_dof,
            (long long)p->space.n_free, (long long)p->space.row[p->space.n_free], matrix / 1e6);

@@ -141,6 +141,15 @@ void describe_off_keys(description *d, reader *own, const term_plugin *plugin)
     }
 }
 
+/* What a fluid has is no mistake in fluid{} where the one term of a plugin that takes it is left out. */
+static void note_off_keys(reader *fluid, const term_plugin *plugin)
+{
+    for (uint32_t i = 0; i < plugin->d.n_term; i++)
+        for (uint32_t k = 0; k < plugin->term[i].n_param; k++)
+            if (plugin->term[i].param[k].flags & PF_SHARED && !(plugin->term[i].flags & PF_OPTIONAL))
+                reader_note(fluid, plugin->term[i].param[k].name, plugin->term[i].param[k].doc);
+}
+
 void describe_unshared_keys(description *d, reader *fluid)
 {
     for (int i = 0; i < d->n_use; i++) {
@@ -154,6 +163,7 @@ void describe_unshared_keys(description *d, reader *fluid)
                 describe_misplaced(d, fluid, t->in[k].name, "is a key of the line term \"%s\" {}", line);
         for (uint32_t k = 0; k < t->n_param; k++)
             describe_misplaced(d, fluid, t->param[k].name, "is a key of the line term \"%s\" {}", line);
+        note_off_keys(fluid, d->use[i].plugin);
     }
 }
 

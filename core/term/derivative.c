@@ -15,6 +15,12 @@
 
 #define COMPLEX_STEP 1e-100
 
+/* Components of slot k that are derived by. */
+static int derived(const pf_term *t, uint32_t k, double *const *jac, int dim)
+{
+    return term_is_derived(&t->in[k]) && jac[k] ? term_components(t->in[k].shape, dim) : 0;
+}
+
 static size_t lanes_of(const pf_slot *slot, uint32_t n, int dim)
 {
     size_t k = 0;
@@ -59,7 +65,7 @@ static int by_complex_step(const pf_term *t, const pf_batch *b, const double *co
         room += (size_t)term_components(t->out[o].shape, dim) * ld;
     }
     for (uint32_t k = 0; k < t->n_in; k++)
-        for (int c = 0, n_c = jac[k] ? term_components(t->in[k].shape, dim) : 0; c < n_c; c++) {
+        for (int c = 0, n_c = derived(t, k, jac, dim); c < n_c; c++) {
             int status;
 
             for (uint32_t i = 0; i < ld; i++)
@@ -100,7 +106,7 @@ static int by_differences(const pf_term *t, const pf_batch *b, const double *con
         room += 2 * n;
     }
     for (uint32_t k = 0; k < t->n_in; k++) {
-        int n_c = jac[k] ? term_components(t->in[k].shape, dim) : 0;
+        int n_c = derived(t, k, jac, dim);
         double size = 0, h;
 
         for (uint32_t i = 0; i < (uint32_t)n_c * ld; i++)

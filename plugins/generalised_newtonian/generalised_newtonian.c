@@ -11,8 +11,6 @@
  */
 #include <plugflow/term.h>
 
-#define PF_SLOT_mu SCALAR, mu, "viscosity", PF_PROPERTY, .unit = "Pa s", .doc = "dynamic viscosity"
-
 #define KEYS                                                                                                       \
     CHOICE(law, "which law", "power_law", "carreau", "cross", "bingham"),                                          \
         REAL(consistency, "Pa s^n", "K of the power law", .min = 0, .max = 1e30),                                  \
