@@ -121,7 +121,9 @@ TERM(tie, PF_CUT, IN(SLOT(dT, T, DEFECT, SCALAR)), OUT(SLOT(ds, T, DEFECT, SCALA
             REAL(g_k, "1", "tie of the temperature, in k/h^2", .dflt = 0.1, PF_NOT_NEGATIVE),
             REAL(g_t, "1", "tie of the temperature, in rho c c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)),
      .flags = PF_LINEAR, .doc = "(g_k k/h^2+g_t\\rho c\\,c_0/\\Delta t)(T-ET)(s-Es)",
-     .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)")
+     .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)",
+     PF_EXAMPLES({"k = 2, c = 4, rho = 3, weights 0.1 and 0.2; h = 0.1, c0/dt = 15: (20 + 36) 5", 2,
+                  (double[]){2, 4, 3, 0.1, 0.2}, (double[]){5}, (double[]){280}, 1e-14}))
 {
     LANES (i)
         ds[i] = (g_k * conductivity / (b->h[i] * b->h[i]) + g_t * density * heat_capacity * b->shift) * dT[i];

@@ -35,7 +35,9 @@ static inline NUM F(loss)(const pf_batch *b, const NUM *grad_T, NUM w, double k,
 TERM(surface_temperature, PF_SURFACE, IN(T, grad_T, DATA(temperature, SCALAR)), OUT(s, grad_s),
      PARAMS(CONDUCTIVITY, GAMMA), .flags = PF_LINEAR | PF_OPTIONAL,
      .doc = "-k\\,\\partial_nT\\,s+k\\,\\partial_ns\\,w+\\gamma\\frac kh\\,w\\,s,\\ w=T-T_b",
-     .cite = "Freund and Stenberg 1995 (skew form of Nitsche's method)")
+     .cite = "Freund and Stenberg 1995 (skew form of Nitsche's method)",
+     PF_EXAMPLES({"k = 2, h = 0.1, n = (0.6, -0.8), grad T = (1, 2), 2 warmer than the surface: 20*2/0.1*2 + 2", 2,
+                  (double[]){2, 20}, (double[]){3, 1, 2, 1}, (double[]){802, 2.4, -3.2}, 1e-14}))
 {
     LANES (i)
         s[i] = F(loss)(b, grad_T[0], T[i] - temperature[i], conductivity, gamma, i, grad_s[0]);
@@ -45,7 +47,9 @@ TERM(surface_temperature, PF_SURFACE, IN(T, grad_T, DATA(temperature, SCALAR)), 
 TERM(interface, PF_SURFACE, IN(T, grad_T, VALUE(T_body)), OUT(s, grad_s, TEST(T_body, s_b)),
      PARAMS(CONDUCTIVITY, GAMMA), .flags = PF_LINEAR,
      .doc = "q\\,(s-s_b)+k\\,\\partial_ns\\,(T-T_b),\\ q=-k\\,\\partial_nT+\\gamma\\frac kh(T-T_b)",
-     .cite = "Freund and Stenberg 1995 (skew form of Nitsche's method), with the flux of one side")
+     .cite = "Freund and Stenberg 1995 (skew form of Nitsche's method), with the flux of one side",
+     PF_EXAMPLES({"k = 2, h = 0.1, n = (0.6, -0.8), grad T = (1, 2), 2 warmer than the body: 20*2/0.1*2 + 2", 2,
+                  (double[]){2, 20}, (double[]){3, 1, 2, 1}, (double[]){802, 2.4, -3.2, -802}, 1e-14}))
 {
     LANES (i) {
         s[i] = F(loss)(b, grad_T[0], T[i] - T_body[i], conductivity, gamma, i, grad_s[0]);
@@ -84,7 +88,8 @@ TERM(continuation, PF_FLUID, IN(GRAD(T_body)), OUT(GRAD_TEST(T_body, s_b)), PARA
 
 /* rho_P c_b dT_b/dt s_b */
 TERM(storage, PF_SOLID, IN(DOT(T_body)), OUT(TEST(T_body, s_b)), PARAMS(BODY_HEAT_CAPACITY), .flags = PF_LINEAR,
-     .doc = "\\rho_Pc_b\\,\\partial_tT_b\\,s_b", .cite = "Carslaw, Jaeger (1959), 1.6")
+     .doc = "\\rho_Pc_b\\,\\partial_tT_b\\,s_b", .cite = "Carslaw, Jaeger (1959), 1.6",
+     PF_EXAMPLES({"c_b = 4, rho_P = 2", 2, (double[]){4}, (double[]){3}, (double[]){24}, 1e-15}))
 {
     LANES (i)
         s_b[i] = b->density[i] * body_heat_capacity * T_body_t[i];

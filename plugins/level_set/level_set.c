@@ -12,7 +12,9 @@
 #define THICKNESS    REAL(thickness, "m", "e of phi = 1/(1 + exp(d/e)); a third of a cell or more", NEEDED)
 #define SPEED        REAL(speed, "m/s", "at which the interface is restored; of the size of velocities", NEEDED)
 #define TENSION      REAL(tension, "N/m", "tension of the interface", PF_NOT_NEGATIVE)
+#define TIE          REAL(g, "1", "tie of phi, in c/h and c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)
 #define OF_SECOND(X) X " of the second fluid"
+#define VISCOSITY_2  REAL(viscosity_2, "Pa s", OF_SECOND("dynamic viscosity"), NEEDED)
 
 /* |grad phi| at lane i, which levels off at `least`, so that n dies out where the fluids are unmixed */
 static inline NUM F(steepness)(const pf_batch *b, const NUM *grad_phi, double least, uint32_t i)
@@ -74,9 +76,11 @@ TERM(tension, PF_FLUID, IN(grad_phi), OUT(grad_v), PARAMS(TENSION, THICKNESS),
 /* rho (du/dt + (u . grad) u - g) . v + 2 mu D(u) : grad v - p div v, without the weight of the first fluid if p is
  * the reduced pressure; rho and mu are those of the fluid at the point */
 TERM(momentum, PF_FLUID, IN(phi, u_t, u, grad_u, p), OUT(v, grad_v),
-     PARAMS(DENSITY, VISCOSITY, REAL(density_2, "kg/m^3", OF_SECOND("mass per volume"), NEEDED),
-            REAL(viscosity_2, "Pa s", OF_SECOND("dynamic viscosity"), NEEDED), GRAVITY, REDUCED_PRESSURE),
+     PARAMS(DENSITY, VISCOSITY, REAL(density_2, "kg/m^3", OF_SECOND("mass per volume"), NEEDED), VISCOSITY_2,
+            GRAVITY, REDUCED_PRESSURE),
      .flags = PF_CONTINUATION,
+     .replaces = "momentum.inertia momentum.convection momentum.viscous momentum.pressure_gradient "
+                 "momentum.body_force",
      .doc = "\\rho\\,(\\partial_t u+(u\\cdot\\nabla)u-g)\\cdot v+(2\\mu D(u)-p\\,I):\\nabla v",
      .cite = "appendix A.7-A.15, with density and viscosity of two fluids",
      PF_EXAMPLES({"phi = 1/2 of rho = 1, 3, mu = 1, 5; g = (0, -10), du/dt = (1, -2), u = (1, 2), grad u = (3 4; 5 "
@@ -101,25 +105,38 @@ TERM(momentum, PF_FLUID, IN(phi, u_t, u, grad_u, p), OUT(v, grad_v),
 
 /* g (c/h + c0/dt) dphi ds;  d: what differs from the polynomial of the root */
 TERM(tie, PF_CUT, IN(SLOT(dphi, phi, DEFECT, SCALAR)), OUT(SLOT(ds, phi, DEFECT, SCALAR)),
-     PARAMS(SPEED, REAL(g, "1", "tie of phi, in c/h and c0/dt", .dflt = 0.1, PF_NOT_NEGATIVE)), .flags = PF_LINEAR,
+     PARAMS(SPEED, VISCOSITY, VISCOSITY_2, TIE), .flags = PF_LINEAR, .check = tie_check,
      .doc = "g(c/h+c_0/\\Delta t)(\\phi-E\\phi)(s-Es)",
-     .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)")
+     .cite = "Badia, Neiva and Verdugo 2022, Comput. Methods Appl. Mech. Eng. 388:114232 (weak aggregation)",
+     PF_EXAMPLES({"c = 2, g = 0.1, h = 0.1, c0/dt = 15: 0.1 (20 + 15) 3", 2, (double[]){2, 1, 1, 0.1},
+                  (double[]){3}, (double[]){10.5}, 1e-14}))
 {
     LANES (i)
         ds[i] = g * (speed / b->h[i] + b->shift) * dphi[i];
 }
 
-/* Of the second fluid: area, or volume; its first moments, momentum over its density; and the length, or area, of
- * the interface, by the integral of |grad phi| over all levels */
+CHECK(tie, PARAMS(SPEED, VISCOSITY, VISCOSITY_2, TIE))
+{
+    REFUSE_UNLESS(
+        viscosity == viscosity_2,
+        "the fluids have viscosities %g and %g, but no slip on bodies is held with that of fluid{}: where "
+        "there are bodies, viscosity_2 must be the same",
+        viscosity, viscosity_2);
+}
+
+/* Of the second fluid: volume, its first moments, volume times velocity; and the area of the interface, the mean
+ * over the levels of phi, those near 1/2 above all: int 30 phi^2 (1 - phi)^2 dphi = 1 */
 TERM(measures, PF_FLUID, IN(phi, grad_phi, u),
      OUT(INTEGRAL(share, SCALAR, "m^3", OF_SECOND("volume")),
          INTEGRAL(moment, VECTOR, "m^4", OF_SECOND("moment of the volume")),
          INTEGRAL(flow, VECTOR, "m^4/s", OF_SECOND("volume times velocity")),
          INTEGRAL(interface, SCALAR, "m^2", "area of the interface")),
-     PARAMS(), .flags = PF_OPTIONAL, .doc = "\\phi,\\quad \\phi\\,x,\\quad \\phi\\,u,\\quad |\\nabla\\phi|",
+     PARAMS(), .flags = PF_OPTIONAL,
+     .doc = "\\phi,\\quad \\phi\\,x,\\quad \\phi\\,u,\\quad 30\\phi^2(1-\\phi)^2|\\nabla\\phi|",
      .cite = "Hysing et al. 2009, Int. J. Numer. Meth. Fluids 60:1259")
 {
     LANES (i) {
+        const NUM between = phi[i] * (1 - phi[i]);
         NUM steep2 = 0;
 
         share[i] = phi[i];
@@ -128,7 +145,7 @@ TERM(measures, PF_FLUID, IN(phi, grad_phi, u),
             flow[k][i] = phi[i] * u[k][i];
             steep2 += grad_phi[k][i] * grad_phi[k][i];
         }
-        interface[i] = sqrt(steep2);
+        interface[i] = 30 * between * between * sqrt(steep2);
     }
 }
 

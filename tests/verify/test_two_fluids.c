@@ -46,11 +46,42 @@ static void a_disk_stays_where_it_displaces_its_mass(void **state)
     assert_between(summary("o", "results.error"), -5e-3, 5e-3);
 }
 
+/* No slip on bodies knows one viscosity. */
+static void two_viscosities_beside_bodies_are_refused(void **state)
+{
+    const char *path = put_file(
+        "two.lua", "mesh { box = {{0,0},{1,1}}, cells = {8,8} }\nfluid { density = 1, viscosity = 1 }\n"
+                   "term \"continuity\" {}\nparticulate \"sharp\"\n"
+                   "term \"level_set\" { density_2 = 1, viscosity_2 = 2, thickness = 0.05, speed = 1 }\n"
+                   "boundary \"*\" { u = {0,0} }\ntime { step = 0.1, stop = 0.2 }\n"
+                   "particle { shape = disk { radius = 0.2 }, density = 1, at = {0.5,0.5}, motion = \"fixed\" }\n");
+
+    (void)state;
+    assert_ran(plugflow("check %s", path), 3, "viscosities 1 and 2", "viscosity_2 must be the same");
+}
+
+/* term "momentum" beside it changes nothing but that its keys of boundaries are there. */
+static void momentum_of_two_fluids_takes_the_place_of_that_of_one(void **state)
+{
+    const char *path =
+        put_file("both.lua", "mesh { box = {{0,0},{1,1}}, cells = {4,4} }\nfluid { density = 1, viscosity = 1 }\n"
+                             "term \"continuity\" {}\nterm \"momentum\" {}\n"
+                             "term \"level_set\" { density_2 = 1, viscosity_2 = 2, thickness = 0.1, speed = 1 }\n"
+                             "boundary \"*\" { u = {0,0} }\nboundary \"right\" { traction = {1,0} }\n"
+                             "time { step = 0.1, stop = 0.2 }\n");
+
+    (void)state;
+    assert_ran(plugflow("check %s", path), 0, "momentum.viscous is left out: level_set.momentum",
+               "momentum.inertia is left out", "momentum.body_force is left out");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pressure_in_a_drop_at_rest_is_that_of_laplace),
         cmocka_unit_test(a_disk_stays_where_it_displaces_its_mass),
+        cmocka_unit_test(two_viscosities_beside_bodies_are_refused),
+        cmocka_unit_test(momentum_of_two_fluids_takes_the_place_of_that_of_one),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
