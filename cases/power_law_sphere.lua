@@ -40,7 +40,7 @@ term "generalised_newtonian" { law = "power_law", consistency = K, exponent = ex
 particulate "sharp"
 
 boundary "*"      { u = {U, 0, 0} }
-boundary "front"  { symmetry = true }
+boundary "back"   { symmetry = true }
 boundary "bottom" { symmetry = true }
 
 particle { shape = sphere { radius = R }, density = 1, at = {0, 0, 0}, motion = "fixed" }

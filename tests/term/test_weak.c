@@ -32,15 +32,16 @@ static const struct pair {
     {"w_divergence", "div(u)*q", "plugins/continuity/continuity.so", "divergence"},
     {"w_inertia", "rho*dot(dt(u), v)", "plugins/momentum/momentum.so", "inertia"},
     {"w_convection", "rho*dot(dot(grad(u), u), v)", "plugins/momentum/momentum.so", "convection"},
-    {"w_stress", "inner(mu*(grad(u) + transpose(grad(u))) - p*I, grad(v))", "plugins/momentum/momentum.so",
-     "stress"},
+    {"w_viscous", "inner(mu*(grad(u) + transpose(grad(u))), grad(v))", "plugins/momentum/momentum.so", "viscous"},
+    {"w_pressure", "-p*div(v)", "plugins/momentum/momentum.so", "pressure_gradient"},
     {"w_diffusion", "conductivity*dot(grad(T), grad(s))", "plugins/heat/heat.so", "diffusion"},
     {"w_buoyancy", "density*expansion*(T - reference_temperature)*dot(g, v)", "plugins/heat/heat.so", "buoyancy"},
     {"w_power_law",
      "D = sym(grad(u)); rate2 = eps^2 + 2*inner(D, D); mu_n = consistency*rate2^(0.5*(n - 1)); "
      "inner(2*mu_n*D - p*I, grad(v))",
      "tests/abi/kit/gnf.so", "stress"},
-    {"w_forchheimer", "(viscosity/permeability + density*forchheimer/sqrt(permeability)*sqrt(dot(u, u) + 1e-300))*dot(u, v)",
+    {"w_forchheimer",
+     "(viscosity/permeability + density*forchheimer/sqrt(permeability)*sqrt(dot(u, u) + 1e-300))*dot(u, v)",
      "tests/abi/kit/drag.so", "drag"},
 };
 
