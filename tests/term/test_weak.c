@@ -33,7 +33,6 @@ static const struct pair {
     {"w_inertia", "rho*dot(dt(u), v)", "plugins/momentum/momentum.so", "inertia"},
     {"w_convection", "rho*dot(dot(grad(u), u), v)", "plugins/momentum/momentum.so", "convection"},
     {"w_viscous", "inner(mu*(grad(u) + transpose(grad(u))), grad(v))", "plugins/momentum/momentum.so", "viscous"},
-    {"w_pressure", "-p*div(v)", "plugins/momentum/momentum.so", "pressure_gradient"},
     {"w_diffusion", "conductivity*dot(grad(T), grad(s))", "plugins/heat/heat.so", "diffusion"},
     {"w_buoyancy", "density*expansion*(T - reference_temperature)*dot(g, v)", "plugins/heat/heat.so", "buoyancy"},
     {"w_power_law",
