@@ -1,7 +1,7 @@
 -- Creeping flow of a power-law fluid past a sphere that is held, in a box whose
 -- outer sides move with the stream.  The drag is X times Stokes's with the viscosity K (U/D)^(n-1).  Expect
 -- (unbounded; Gu and Tanner 1985, J. Non-Newtonian Fluid Mech. 17:1) X = 1.00 for n = 1, 1.24 for 0.8, 1.382 for
--- 0.6, 1.442 for 0.4, 1.40 for 0.2; walls add about 2.1 R/L for n = 1, and less for smaller n.  A quarter of the flow, by symmetry.
+-- 0.6, 1.442 for 0.4; walls add about 2.1 R/L for n = 1, and less for smaller n.  A quarter of the flow, by symmetry.
 case "Sphere in a power-law fluid"
 
 local n = param("n", 12, "cells along an edge")
