@@ -4,11 +4,11 @@
 -- 0.6, 1.442 for 0.4; walls add about 2.1 R/L for n = 1, and less for smaller n.  A quarter of the flow, by symmetry.
 case "Sphere in a power-law fluid"
 
-local n = param("n", 12, "cells along an edge")
+local n = param("n", 8, "cells along an edge")
 local exponent = param("exponent", 0.6, "n of the power law")
 local L = param("l", 20, "half of the box, in radii")
 local near = param("near", 1.6, "edge of the evenly divided part, in radii")
-local inner = param("inner", 6, "cells of that part")
+local inner = param("inner", 5, "cells of that part")
 local R, U, K = 1, 1, 1
 
 -- even cells round the sphere, longer ones outside, the ratio such that they fit
