@@ -246,7 +246,9 @@ static inline int assemble_local(const space *s, int field, int i)
 
     if (s->field[field].order)
         return s->field[field].order == 2 ? i : type->vertex[i];
-    return type->n_node + (s->field[field].support == PF_ON_PARTICLE ? s->any_problem : 0);
+    if (space_of_cells(&s->field[field]))
+        return type->n_node + s->any_problem;
+    return type->n_node + (s->field[field].support == PF_ON_PARTICLE ? s->any_problem + s->any_cell : 0);
 }
 
 /* The same on an item of a class: a pair lists two bodies, a bad cell and its root the nodes of both. */

@@ -321,6 +321,8 @@ static int add_term(const assembly *a, const assembly_class *c, const assembly_s
     if (n_within == 0)
         return 0;
     status = evaluate_term(c, p, batch, b, in, out, w);
+    if (!status && s->watch)
+        s->watch->look(s->watch->ctx, p->use, b, in);
     for (uint32_t o = 0; masked && o < t->n_out; o++)
         reach_mask(within, out[o], (size_t)term_components(t->out[o].shape, dim) * b->ld);
     if (!status && diagnose && evaluate_find_nan(t, b, out, &w->report))

@@ -10,13 +10,28 @@
 int kept_place(assembly *a, assembly_class *c, error *err)
 {
     const kept_fields *k = &a->space->kept;
+    const int part = c->follows && (c->where == PF_FLUID || c->where == PF_SOLID);
 
-    if (c->where == PF_PARTICLE || !c->follows) /* bodies; the points of whole cells are those of the memory */
+    if (!part) /* the points of whole cells are those of the memory; others are found one by one */
         return 0;
     ARENA_NEW(&a->memory, c->kept_weight, c->n_q * k->rule.n, err);
     for (int q = 0; q < c->n_q; q++)
         kept_weights(k, c->rule[0].x[q], c->kept_weight + q * k->rule.n);
     return 0;
+}
+
+/* Whether the points of a class are those that memory has values at. */
+static int at_own_points(const assembly_class *c)
+{
+    return c->where == PF_CELL || (c->where == PF_FLUID && !c->follows);
+}
+
+/* Point q of an item, in its cell. */
+static const double *place(const assembly_class *c, int64_t item, int q)
+{
+    if (c->where == PF_SURFACE)
+        return c->ref[(int64_t)c->source[item] * c->n_q + q];
+    return c->rule[c->where == PF_FACET ? c->facet[item] : 0].x[q];
 }
 
 /* The body that an item is a part of, or -1: it is fluid. */
@@ -90,7 +105,7 @@ static void take_item(const assembly *a, const assembly_class *c, const assembly
 
         for (int d = 0; d < dim; d++)
             x[d] = w->x[d * nq + q][lane];
-        counts[q] = (uint8_t)along(a, c, s, in->kept, item, c->rule[0].x[q], x, one);
+        counts[q] = (uint8_t)along(a, c, s, in->kept, item, place(c, item, q), x, one);
         for (int i = 0; i < in->n_comp; i++)
             v[i * nq + q] = one[i];
     }
@@ -131,8 +146,8 @@ int kept_update(const assembly *a, assembly_class *c, const assembly_state *s, e
     const moving_frame *f = s->frame;
     int64_t n = 0, n_comp = 0;
 
-    if (!f || !s->kept || !c->any_kept || (c->where != PF_FLUID && c->where != PF_SOLID) ||
-        c->kept_stamp == f->stamp)
+    if (!f || !s->kept || !c->any_kept || c->where == PF_CELL || c->where == PF_FACET || c->where == PF_PARTICLE ||
+        c->where == PF_PAIR || c->kept_stamp == f->stamp)
         return 0;
     for (int i = 0; i < c->n_input; i++)
         n_comp += c->input[i].kept >= 0 ? c->input[i].n_comp : 0;
@@ -183,18 +198,20 @@ void kept_values(const assembly *a, const assembly_class *c, const assembly_stat
             memset(out, 0, (size_t)(in->n_comp * nq) * sizeof *out);
         return;
     }
-    for (int l = 0; l < 8; l++) {
-        const double *v = of_body ? NULL : s->kept + kept_at(k, in->kept, c->cell[assemble_item(c, batch, l)]);
+    for (int l = 0; l < 8; l++)
+        for (int q = 0; q < nq; q++) {
+            const int64_t item = assemble_item(c, batch, l);
+            const double *v = s->kept + kept_at(k, in->kept, of_body ? w->id[q * 8 + l] : c->cell[item]);
+            double one[VALUE_MAX];
 
-        for (int i = 0; i < in->n_comp; i++)
-            for (int q = 0; q < nq; q++) {
-                double sum = 0;
+            if (!of_body && !at_own_points(c) && !c->kept_weight)
+                kept_value(k, in->kept, s->kept, c->cell[item], place(c, item, q), one);
+            for (int i = 0; i < in->n_comp; i++) {
+                double sum = of_body ? v[i] : at_own_points(c) ? v[i * np + q] : c->kept_weight ? 0 : one[i];
 
-                for (int p = 0; c->kept_weight && p < np; p++)
+                for (int p = 0; !of_body && c->kept_weight && p < np; p++)
                     sum += c->kept_weight[q * np + p] * v[i * np + p];
-                out[i * nq + q][l] = of_body          ? s->kept[kept_at(k, in->kept, w->id[q * 8 + l]) + i]
-                                     : c->kept_weight ? sum
-                                                      : v[i * np + q];
+                out[i * nq + q][l] = sum;
             }
-    }
+        }
 }

@@ -188,7 +188,7 @@ static int check_law(const assembly_class *c, const space *s, const term_use *la
         const int f = term_slot_field(&t->in[k]) ? space_find_field(s, t->in[k].field) : -1;
         const int pair = c->where == PF_PAIR, cut = c->where == PF_CUT;
 
-        if ((pair && (t->in[k].eval == PF_LAPLACE || t->flags & PF_METRIC)) ||
+        if ((pair && (t->in[k].eval == PF_LAPLACE || t->in[k].eval == PF_STATE || t->flags & PF_METRIC)) ||
             (cut && f >= 0 && s->field[f].support != PF_ON_MESH))
             return error_set(err, ERR_PLUGIN,
                              "%s.%s publishes what a term on %s points takes, where \"%s\" (%s) is not there",

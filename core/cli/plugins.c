@@ -60,8 +60,9 @@ static void print_slots(const char *title, const pf_slot *s, uint32_t n, int by_
                                         "gradient of a tensor"};
 
     for (uint32_t i = 0; i < n; i++)
-        printf("      %-7s %-22s %s%s%s, %s\n", i ? "" : title, s[i].name, term_eval_name(s[i].eval),
-               s[i].field ? " of " : "", s[i].field ? s[i].field : "", shape[s[i].shape]);
+        printf("      %-7s %-22s %s%s%s, %s%s%s%s%s\n", i ? "" : title, s[i].name, term_eval_name(s[i].eval),
+               s[i].field ? " of " : "", s[i].field ? s[i].field : "", shape[s[i].shape], s[i].unit ? ", " : "",
+               s[i].unit ? s[i].unit : "", s[i].doc ? ": " : "", s[i].doc ? s[i].doc : "");
     for (uint32_t i = 0; by_boundary && i < n; i++)
         if (s[i].eval == PF_DATA)
             printf("      in a case: boundary \"...\" { %s = ... }\n", s[i].name);

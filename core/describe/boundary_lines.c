@@ -107,6 +107,13 @@ static void read_values(description *d, reader *r, boundary_line *l)
 
         if (g->support != PF_ON_MESH)
             continue;
+        if (g->order == 0) {
+            if (reader_note(r, g->name, g->doc))
+                case_wrong(d->c, r->b, g->name,
+                           "%s: \"%s\" (%s) has one value a cell, and none on a boundary that could be prescribed",
+                           r->what, g->name, g->doc);
+            continue;
+        }
         if (!describe_field_is_balanced(d, f)) {
             value v = {0};
 

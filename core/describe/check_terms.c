@@ -251,6 +251,19 @@ static void check_motion(const description *d)
         }
 }
 
+/* Bodies may cover all of a cell, or all but a sliver: then a value of the cell has no equation, or hardly one. */
+static void check_cells(const description *d)
+{
+    for (int f = 0; f < d->fields.n; f++)
+        if (d->n_body && d->fields.f[f].support == PF_ON_MESH && d->fields.f[f].order == 0) {
+            case_wrong(d->c, d->body[0].block, NULL,
+                       "\"%s\" (%s) has one value a cell (order 0), which is not possible in a case with bodies: "
+                       "declare it with order 1 in plugin \"%s\"",
+                       d->fields.f[f].name, d->fields.f[f].doc, d->fields.f[f].declared_by);
+            return;
+        }
+}
+
 void describe_check_terms(const description *d)
 {
     if (d->incomplete)
@@ -258,6 +271,7 @@ void describe_check_terms(const description *d)
     check_shared(d);
     check_all_data(d);
     check_motion(d);
+    check_cells(d);
     check_viscosity(d);
     check_density(d);
     if (d->c->n_error == 0 && d->n_line > 0) /* else that is what is wrong first */

@@ -108,8 +108,9 @@ typedef struct output_spec {
     int n_probe, n_line, n_force;
     probe_spec probe[DESCRIBE_MAX_PROBES];
     line_spec line[DESCRIBE_MAX_PROBES];
-    const char *force[MESH_MAX_NAMES];   /* boundaries whose reactions are wanted */
-    double about[3];                     /* point that torques refer to           */
+    const char *force[MESH_MAX_NAMES]; /* boundaries whose reactions are wanted */
+    double about[3];                   /* point that torques refer to           */
+    double coefficient; /* of a force of 1 N: 2 / (density velocity^2 length or area); 0: none is wanted */
     int n_shown, shown[TERM_MAX_FIELDS]; /* fields of shown_fields to write      */
     int n_integral;                      /* boundaries whose integrals are wanted; -1: all that have a name */
     const char *integral[MESH_MAX_NAMES];

@@ -244,6 +244,36 @@ static void read_integrals(description *d, reader *r)
                    "\"show.flow_rate\" {} is one that does");
 }
 
+/* A number that coefficients are made with. */
+static double positive(reader *r, const char *key, const char *doc)
+{
+    double v = 1;
+
+    reader_required(r, key, reader_number(r, key, doc, 1e-100, 1e100, &v));
+    return v;
+}
+
+/* coefficients = { density, velocity, length (in 3D area) }: forces in units of half the dynamic pressure on it. */
+static int read_coefficients(description *d, reader *r, error *err)
+{
+    const case_block *inner;
+    double density, velocity, size;
+    reader own;
+
+    if (reader_table(r, "coefficients",
+                     "coefficients of forces: { density = ..., velocity = ..., length = ... }") <= 0)
+        return 0;
+    TRY(describe_inner(d, r->b, "output", &inner, err));
+    reader_open(&own, d->c, inner, "output: coefficients");
+    density = positive(&own, "density", "of the fluid, kg/m^3");
+    velocity = positive(&own, "velocity", "of the stream, m/s");
+    size = d->dim == 2 ? positive(&own, "length", "across the stream, m")
+                       : positive(&own, "area", "across the stream, m^2");
+    reader_close(&own);
+    d->output.coefficient = 2 / (density * velocity * velocity * size);
+    return 0;
+}
+
 int describe_output(description *d, registry *plugins, error *err)
 {
     output_spec *o = &d->output;
@@ -255,6 +285,7 @@ int describe_output(description *d, registry *plugins, error *err)
     read_every(d, &r);
     read_fields(d, plugins, &r);
     read_integrals(d, &r);
+    TRY(read_coefficients(d, &r, err));
     TRY(read_probes(d, &r, err));
     TRY(read_lines(d, &r, err));
     reader_strings(&r, "forces", "boundaries whose force (and other reactions) is wanted", MESH_MAX_NAMES, o->force,

@@ -60,8 +60,9 @@ static void no_such_term(description *d, const case_block *b, const char *key, c
     text_free(&list);
 }
 
-/* Names in without = {...}. */
-static void check_names(description *d, reader *r, const term_plugin *plugin, const char *const *list, int n)
+/* Names in without = {...}, only = {...}. */
+static void check_names(description *d, reader *r, const char *key, const term_plugin *plugin,
+                        const char *const *list, int n)
 {
     for (int i = 0; i < n; i++) {
         int found = 0;
@@ -69,7 +70,7 @@ static void check_names(description *d, reader *r, const term_plugin *plugin, co
         for (uint32_t k = 0; k < plugin->d.n_term; k++)
             found |= strcmp(plugin->term[k].name, list[i]) == 0;
         if (!found)
-            no_such_term(d, r->b, "without", r->what, plugin, list[i]);
+            no_such_term(d, r->b, key, r->what, plugin, list[i]);
     }
 }
 
@@ -101,8 +102,8 @@ static int find_plugin(description *d, registry *r, const case_block *b, char *n
 
 /* How a line uses the terms that it switches on. */
 typedef struct line_options {
-    const char *without[32];
-    int n_without;
+    const char *without[32], *only[32];
+    int n_without, n_only;
     int how, over; /* enum term_derivative; 1: in the fluid only */
     const value *inside;
     const char *label;
@@ -113,7 +114,10 @@ static void read_options(description *d, reader *own, const term_plugin *plugin,
     static const char *const over_name[] = {"all", "fluid", NULL};
 
     if (!single && reader_strings(own, "without", "terms to leave out", 32, o->without, &o->n_without) > 0)
-        check_names(d, own, plugin, o->without, o->n_without);
+        check_names(d, own, "without", plugin, o->without, o->n_without);
+    if (!single &&
+        reader_strings(own, "only", "the terms to switch on, optional ones too", 32, o->only, &o->n_only) > 0)
+        check_names(d, own, "only", plugin, o->only, o->n_only);
     reader_choice(own, "jacobian", "how the derivatives are computed", derivative_name, &o->how);
     reader_choice(own, "over", "part of the domain: all of it, or outside of the bodies (fluid)", over_name,
                   &o->over);
@@ -130,6 +134,15 @@ static void check_dimension(description *d, const reader *own, const term_plugin
                    own->what, plugin->d.name, t->name, only, d->dim, only);
 }
 
+/* Whether a line switches a term on: it names it, or does not and the term is none of the optional ones. */
+static int is_on(const pf_term *t, const char *single, const line_options *o)
+{
+    if (single)
+        return strcmp(t->name, single) == 0;
+    return (o->n_only ? is_listed(t->name, o->only, o->n_only) : !(t->flags & PF_OPTIONAL)) &&
+           !is_listed(t->name, o->without, o->n_without);
+}
+
 /* Switches on the terms of a line: the one that it names, or all but optional ones and those left out. */
 static int switch_on(description *d, reader *own, const term_plugin *plugin, const char *single,
                      const line_options *o, line_terms *mine, error *err)
@@ -139,8 +152,7 @@ static int switch_on(description *d, reader *own, const term_plugin *plugin, con
     for (uint32_t i = 0; i < plugin->d.n_term; i++) {
         const pf_term *t = &plugin->term[i];
 
-        if (single ? strcmp(t->name, single) != 0
-                   : (t->flags & PF_OPTIONAL) || is_listed(t->name, o->without, o->n_without))
+        if (!is_on(t, single, o))
             continue;
         found = 1;
         check_dimension(d, own, plugin, t);
@@ -165,7 +177,10 @@ static int switch_on(description *d, reader *own, const term_plugin *plugin, con
     if (single && !found)
         no_such_term(d, own->b, NULL, own->what, plugin, single);
     else if (!found)
-        case_wrong(d->c, own->b, "without", "%s: no term is left; leave the line out instead", own->what);
+        case_wrong(d->c, own->b, "without",
+                   o->n_without ? "%s: no term is left; leave the line out instead"
+                                : "%s: all its terms are off unless they are named, as in only = {\"%s\"}",
+                   own->what, plugin->term[0].name);
     return 0;
 }
 

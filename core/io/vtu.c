@@ -148,6 +148,8 @@ static int add_fields(grid_file *g, const vtu_more *of, const int32_t *body, are
         int at[VALUE_MAX], width = file_components(f, s->mesh->dim, at);
         double *values;
 
+        if (space_of_cells(f)) /* see vtu_cells */
+            continue;
         ARENA_NEW(a, values, n * width, err);
         nodal(s, of->field[i], of->x, values);
         if (body && of->empty >> of->field[i] & 1)

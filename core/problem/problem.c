@@ -193,8 +193,7 @@ int problem_initial(problem *p, error *err)
 
             if (s->first[f][c] < 0 || s->field[f].support == PF_ON_PARTICLE)
                 continue;
-            if (c < p->mesh.n_node)
-                memcpy(x, p->mesh.x + c * d->dim, (size_t)d->dim * sizeof *x);
+            space_place(s, c, x);
             TRY(value_at(&d->initial[f], x, t, v, err));
             memcpy(to + s->first[f][c], v, (size_t)s->field[f].n_comp * sizeof *v);
         }

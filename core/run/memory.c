@@ -7,6 +7,22 @@
 #include <stdio.h>
 #include <string.h>
 
+static int order_zero(const run *r, int f, vtu_cells *to, arena *memory, error *err)
+{
+    const space *s = &r->p->space;
+    const int n_comp = s->field[f].n_comp;
+    double *v;
+
+    if (!space_of_cells(&s->field[f]))
+        return 0;
+    ARENA_NEW(memory, v, s->mesh->n_cell * n_comp + 1, err);
+    for (int64_t e = 0; e < s->mesh->n_cell; e++)
+        memcpy(v + e * n_comp, r->shown + s->first[f][space_cell_carrier(s, e)], (size_t)n_comp * sizeof *v);
+    to->field[to->n] = &s->field[f];
+    to->value[to->n++] = v;
+    return 0;
+}
+
 int cell_fields(const run *r, vtu_cells *to, arena *memory, error *err)
 {
     const kept_fields *k = &r->p->space.kept;
@@ -22,6 +38,8 @@ int cell_fields(const run *r, vtu_cells *to, arena *memory, error *err)
         to->field[to->n] = &k->field[f];
         to->value[to->n++] = mean;
     }
+    for (int i = 0; i < r->p->description.output.n_field; i++)
+        TRY(order_zero(r, r->p->description.output.field[i], to, memory, err));
     return 0;
 }
 

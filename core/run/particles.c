@@ -19,18 +19,19 @@ static const char *const columns_3d[] = {
     "t",  "id", "x",  "y",         "z",         "q0",        "q1",          "q2", "q3",
     "u",  "v",  "w",  "omega_x",   "omega_y",   "omega_z",   "fx",          "fy", "fz",
     "tx", "ty", "tz", "contact_x", "contact_y", "contact_z", "active_nodes"};
+static const char *const coefficients[] = {"cx", "cy", "cz"};
 enum { COLUMNS_2D = 14, COLUMNS_3D = 25, MOST_SHOWN = 192 };
 
 int particles_plan(run *r, error *err)
 {
     char path[4600], name[2 * OFF_MESH_MOST][OFF_MESH_NAME], own[MOST_SHOWN][96];
-    const char *column[COLUMNS_3D + 2 * OFF_MESH_MOST + MOST_SHOWN], *unit[MOST_SHOWN];
+    const char *column[COLUMNS_3D + 2 * OFF_MESH_MOST + MOST_SHOWN + 3], *unit[MOST_SHOWN];
     const int dim = r->p->description.dim, n = dim == 2 ? COLUMNS_2D : COLUMNS_3D;
     int more, n_shown;
 
     if (r->p->bodies.n == 0)
         return 0;
-    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D + 2 * OFF_MESH_MOST + MOST_SHOWN, err);
+    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D + 2 * OFF_MESH_MOST + MOST_SHOWN + 3, err);
     memcpy(column, dim == 2 ? columns_2d : columns_3d, (size_t)n * sizeof *column);
     more = off_mesh_columns(r, PF_ON_PARTICLE, name);
     more += kept_columns(r, name + more);
@@ -39,6 +40,8 @@ int particles_plan(run *r, error *err)
     n_shown = showing_body_columns(r, MOST_SHOWN, own, unit);
     for (int i = 0; i < n_shown; i++)
         column[n + more + i] = own[i];
+    for (int i = 0; r->p->description.output.coefficient > 0 && i < dim; i++)
+        column[n + more + n_shown++] = coefficients[i];
     snprintf(path, sizeof path, "%s/particles.csv", r->dir);
     return table_create(&r->particles, path, column, n + more + n_shown, err);
 }
@@ -120,7 +123,11 @@ int particles_write(run *r, double t, error *err)
         *at++ = round(active[k]);
         at = off_mesh_values(r, PF_ON_PARTICLE, space_body_carrier(&p->space, k), at);
         at = kept_of_body(r, k, at);
-        TRY(showing_body_row(r, k, at, err));
+        at = showing_body_row(r, k, at, err);
+        if (!at)
+            return err->code;
+        for (int i = 0; p->description.output.coefficient > 0 && i < dim; i++)
+            *at++ = r->before_steps ? NAN : u >= 0 ? -p->description.output.coefficient * force[u + i] : 0;
         TRY(table_add(&r->particles, row, err));
     }
     return 0;

@@ -91,7 +91,9 @@ static int make_shown(run *r, showing *s, error *err)
             spec[n++].rule = cut;
         }
     }
-    return shown_create(&s->shown, &p->space, &d->shown_fields, spec, n, p->n_thread, err);
+    TRY(shown_create(&s->shown, &p->space, &d->shown_fields, spec, n, p->n_thread, err));
+    s->shown.assembly.walls = p->bodies.has_walls ? &p->bodies.walls : NULL;
+    return 0;
 }
 
 int showing_open(run *r, error *err)
@@ -149,6 +151,7 @@ static int evaluate(run *r, error *err)
                          .x = r->x,
                          .dot = s->dot,
                          .old = r->x,
+                         .kept = p->state.kept,
                          .bodies = problem_points(p)};
 
     if (s->evaluated)
@@ -307,7 +310,7 @@ int showing_body_columns(const run *r, int most, char (*name)[96], const char **
     return n;
 }
 
-int showing_body_row(run *r, int body, double *row, error *err)
+double *showing_body_row(run *r, int body, double *row, error *err)
 {
     const shown *s = r->showing ? &r->showing->shown : NULL;
 
@@ -316,11 +319,12 @@ int showing_body_row(run *r, int body, double *row, error *err)
 
         if (q->per != SHOWN_BODY)
             continue;
-        TRY(evaluate(r, err));
+        if (evaluate(r, err))
+            return NULL;
         for (int k = 0; k < q->n_comp; k++)
             *row++ = is_early(r, q->use) ? NAN : q->value[body * q->n_comp + k];
     }
-    return 0;
+    return row;
 }
 
 /* --- fields --- */

@@ -22,7 +22,8 @@ int showing_plan(run *r, text *units, error *err);
 int showing_row(run *r, double t, error *err);
 /* Columns of particles.csv that come last: their number, names and units; the values of a body. */
 int showing_body_columns(const run *r, int most, char (*name)[96], const char **unit);
-int showing_body_row(run *r, int body, double *row, error *err);
+/* Returns where the row goes on, NULL: an error. */
+double *showing_body_row(run *r, int body, double *row, error *err);
 
 /* Fields that are shown, projected; 0 of them if r->showing is NULL. */
 int showing_fields(const run *r, const field_spec **f);

@@ -75,7 +75,7 @@ static int may_start_coarse(const problem *p)
 
     for (int k = 1; k < d->dim; k++)
         fewest = d->mesh.box.n[k] < fewest ? d->mesh.box.n[k] : fewest;
-    if (!describe_is_box(d) || d->n_body || d->solve.coarse_start == 0)
+    if (!describe_is_box(d) || d->n_body || p->space.any_cell || d->solve.coarse_start == 0)
         return 0;
     return fewest >= 2 * LEAST_CELLS && (d->solve.coarse_start > 0 || p->space.n_dof >= LEAST_UNKNOWNS) &&
            !system_is_linear(&p->system, &(newton_time){0});

@@ -94,6 +94,9 @@ static void force_columns(const problem *p, const char *boundary, columns *c)
                 snprintf(name[k], 96, "%.40s.torque", boundary);
             else
                 snprintf(name[k], 96, "%.40s.t%c", boundary, "xyz"[k]);
+        name = p->description.output.coefficient > 0 ? more(c, g->n_comp, "1") : NULL;
+        for (int k = 0; name && k < g->n_comp; k++)
+            snprintf(name[k], 96, "%.40s.c%c", boundary, "xyz"[k]);
     }
 }
 
@@ -238,6 +241,8 @@ static double *reaction(const run *r, int boundary, int f, const double *about, 
     if (turns)
         for (int a = m->dim == 2 ? 2 : 0; a < 3; a++)
             *out++ = torque[a];
+    for (int a = 0; turns && p->description.output.coefficient > 0 && a < n_comp; a++)
+        *out++ = p->description.output.coefficient * sum[a];
     return out;
 }
 

@@ -20,6 +20,7 @@ static unknown_name name_of(const space *s, int64_t dof)
     const field_spec *f = &s->field[s->dof_field[dof]];
     int64_t carrier = s->dof_node[dof];
     unknown_name n;
+    double x[3];
     int at = snprintf(n.s, sizeof n.s, "%.60s", f->name);
 
     if (term_is_tensor((uint32_t)f->shape))
@@ -27,9 +28,8 @@ static unknown_name name_of(const space *s, int64_t dof)
                        term_component((uint32_t)f->shape, f->n_comp, s->dof_comp[dof]));
     else if (f->n_comp > 1)
         at += snprintf(n.s + at, sizeof n.s - (size_t)at, "[%d]", s->dof_comp[dof] + 1);
-    if (carrier < s->mesh->n_node)
-        snprintf(n.s + at, sizeof n.s - (size_t)at, " at %s",
-                 text_point(s->mesh->x + carrier * s->mesh->dim, s->mesh->dim).s);
+    if (space_place(s, carrier, x))
+        snprintf(n.s + at, sizeof n.s - (size_t)at, " at %s", text_point(x, s->mesh->dim).s);
     else if (carrier > s->mesh->n_node)
         snprintf(n.s + at, sizeof n.s - (size_t)at, " of particle %lld",
                  (long long)(carrier - s->mesh->n_node - 1));

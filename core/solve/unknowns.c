@@ -68,11 +68,13 @@ static int describe_rows(const space *s, arena *memory, pf_unknowns *v, error *e
     for (int64_t g = 0; g < s->n_row_node; g++) {
         int32_t c = s->dof_node[s->dof_of[s->row_node[g]]];
 
-        kind[g] = c < s->mesh->n_node    ? PF_ROWS_OF_NODE
-                  : c == s->mesh->n_node ? PF_ROWS_OF_PROBLEM
-                                         : PF_ROWS_OF_BODY;
+        double place[3];
+
+        kind[g] = space_place(s, c, place) ? PF_ROWS_OF_NODE
+                  : c == s->mesh->n_node   ? PF_ROWS_OF_PROBLEM
+                                           : PF_ROWS_OF_BODY;
         if (kind[g] == PF_ROWS_OF_NODE)
-            memcpy(x + g * dim, s->mesh->x + (int64_t)c * dim, (size_t)dim * sizeof *x);
+            memcpy(x + g * dim, place, (size_t)dim * sizeof *x);
     }
     v->field_of = field_of;
     v->comp_of = comp_of;

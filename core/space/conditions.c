@@ -65,7 +65,7 @@ static int add_symmetry(conditions *c, const description *d, space *s, int line,
         }
     }
     for (int f = 0; f < s->n_field; f++)
-        for (int a = 0; a < m->dim && s->field[f].support == PF_ON_MESH; a++)
+        for (int a = 0; a < m->dim && s->field[f].support == PF_ON_MESH && s->field[f].order; a++)
             for (int k = 0; k < s->field[f].n_comp; k++)
                 if (term_turns_sign((uint32_t)s->field[f].shape, s->field[f].n_comp, k, a))
                     TRY(add_set(c, s, line, f, k, NULL, axis, a, err));

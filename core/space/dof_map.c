@@ -41,10 +41,14 @@ int space_number(space *s, const field_list *fields, const mesh *m, int n_body, 
     s->field = fields->f;
     s->n_field = fields->n;
     s->n_particle = n_body;
-    s->n_carrier = m->n_node + 1 + s->n_particle;
-    for (int f = 0; f < s->n_field; f++)
+    for (int f = 0; f < s->n_field; f++) {
         s->any_problem |= s->field[f].support == PF_ON_PROBLEM;
-    s->cell_carriers = m->type->n_node + s->any_problem + (s->n_particle > 0);
+        s->any_cell |= space_of_cells(&s->field[f]);
+    }
+    s->n_carrier = m->n_node + 1 + s->n_particle + (s->any_cell ? m->n_cell : 0);
+    if (s->n_carrier > INT32_MAX - 64)
+        return error_set(err, ERR_MEMORY, "more than 2^31 nodes and cells; this build numbers at most that many");
+    s->cell_carriers = m->type->n_node + s->any_problem + s->any_cell + (s->n_particle > 0);
     ARENA_NEW(&s->memory, order, s->n_carrier, err);
     TRY(mark_carriers(s, order, err));
     for (int pass = 0; pass < 2; pass++) {
@@ -54,7 +58,8 @@ int space_number(space *s, const field_list *fields, const mesh *m, int n_body, 
             for (int f = 0; f < s->n_field; f++) {
                 const field_spec *g = &s->field[f];
                 int here = g->support == PF_ON_PROBLEM    ? c == m->n_node
-                           : g->support == PF_ON_PARTICLE ? c > m->n_node
+                           : g->support == PF_ON_PARTICLE ? c > m->n_node && c < space_cell_carrier(s, 0)
+                           : space_of_cells(g)            ? c >= space_cell_carrier(s, 0)
                                                           : c < m->n_node && (order[c] & g->order);
 
                 if (!here)

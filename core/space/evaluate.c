@@ -11,7 +11,9 @@ static const double *nodal(const space *s, int field, const double *x, int64_t c
 {
     const mesh *m = s->mesh;
     int order = s->field[field].order, local = order == 2 ? i : m->type->vertex[i];
-    int64_t carrier = order == 0 ? m->n_node : m->cell[cell * m->type->n_node + local];
+    int64_t carrier = space_of_cells(&s->field[field]) ? space_cell_carrier(s, cell)
+                      : order == 0                     ? m->n_node
+                                                       : m->cell[cell * m->type->n_node + local];
 
     return s->first[field][carrier] < 0 ? NULL : x + s->first[field][carrier];
 }

@@ -47,6 +47,29 @@ int32_t space_body_carrier(const space *s, int body)
     return body < 0 ? -1 : (int32_t)s->mesh->n_node + 1 + body;
 }
 
+int32_t space_cell_carrier(const space *s, int64_t cell)
+{
+    return (int32_t)(s->mesh->n_node + 1 + s->n_particle + cell);
+}
+
+int space_place(const space *s, int64_t carrier, double *x)
+{
+    const mesh *m = s->mesh;
+    const int64_t cell = carrier - space_cell_carrier(s, 0);
+    const fe_cell *c = m->type;
+    double middle[3] = {0}, j[3][3];
+
+    memset(x, 0, 3 * sizeof *x);
+    if (carrier < m->n_node)
+        memcpy(x, m->x + carrier * m->dim, (size_t)m->dim * sizeof *x);
+    for (int i = 0; cell >= 0 && i < c->n_vertex; i++)
+        for (int k = 0; k < m->dim; k++)
+            middle[k] += c->x[c->vertex[i]][k] / c->n_vertex;
+    if (cell >= 0)
+        mesh_place(m, cell, middle, x, j);
+    return carrier < m->n_node || cell >= 0;
+}
+
 /* Carrier i of a cell, attached to a body or not (-1). */
 static int32_t cell_carrier(const space *s, int64_t cell, int body, int i)
 {
@@ -56,6 +79,8 @@ static int32_t cell_carrier(const space *s, int64_t cell, int body, int i)
         return space_master(s, m->cell[cell * m->type->n_node + i]);
     if (i == m->type->n_node && s->any_problem)
         return (int32_t)m->n_node;
+    if (i == m->type->n_node + s->any_problem && s->any_cell)
+        return space_cell_carrier(s, cell);
     return space_body_carrier(s, body);
 }
 

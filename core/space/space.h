@@ -3,10 +3,11 @@
  * space.h -- fields, the map from nodes to unknowns, and constraints.
  *
  * A carrier is what unknowns hang on: a mesh node or, after those, the problem as a whole, then the
- * bodies.  A group is a set of carriers whose unknowns couple; there are four types:
+ * bodies, then, if some field has one value a cell, the cells.  A group is a set of carriers whose unknowns couple;
+ * there are four types:
  *
- *     cell       its nodes (and the problem)
- *     attached   a cell and a body near it: the nodes, (the problem,) the body
+ *     cell       its nodes (and the problem, and itself)
+ *     attached   a cell and a body near it: the nodes, (the problem, the cell,) the body
  *     link       two bodies, or a body alone
  *     tie        a cell with too little fluid and its root: the nodes of both
  *
@@ -50,9 +51,9 @@ typedef struct space {
     const field_spec *field; /* [n_field] of the description */
     kept_fields kept;        /* memory of terms: no unknowns */
 
-    int n_particle, any_problem;
-    int64_t n_attached; /* pairs of a cell and a body near it */
-    int crowded;        /* bodies are near a large part of all cells: who attaches says so */
+    int n_particle, any_problem, any_cell; /* some field is of the problem; has one value a cell */
+    int64_t n_attached;                    /* pairs of a cell and a body near it */
+    int crowded;                           /* bodies are near a large part of all cells: who attaches says so */
     int32_t *attached_cell, *attached_particle;
     int64_t n_link, link_room; /* pairs of bodies; -1: none                          */
     int32_t (*link)[2];
@@ -60,8 +61,8 @@ typedef struct space {
     int32_t (*tie)[2];
     int64_t n_spare, spare_room; /* pairs of cells that the pattern has entries for: ties may come there */
     int32_t (*spare)[2];
-    int64_t n_carrier; /* mesh nodes, the problem, bodies */
-    int cell_carriers; /* carriers of a cell: its nodes, then the problem if needed  */
+    int64_t n_carrier; /* mesh nodes, the problem, bodies, cells if needed */
+    int cell_carriers; /* carriers of a cell: its nodes, then the problem and itself if needed, a body */
     int64_t n_dof, n_free;
     int32_t *first[SPACE_MAX_FIELDS]; /* [n_carrier] first dof of the field there, or -1           */
     uint8_t *dof_field, *dof_comp;    /* [n_dof]                                                    */
@@ -128,6 +129,14 @@ int64_t space_tie_group(const space *s, int64_t tie);
 int space_group_size(const space *s, int64_t group);
 int32_t space_carrier(const space *s, int64_t group, int i);
 int32_t space_body_carrier(const space *s, int body);
+int32_t space_cell_carrier(const space *s, int64_t cell);
+/* Whether a carrier has a place in the mesh, a node or the middle of a cell: x[3]. */
+int space_place(const space *s, int64_t carrier, double *x);
+/* 1: the field has one value a cell. */
+static inline int space_of_cells(const field_spec *f)
+{
+    return f->support == PF_ON_MESH && f->order == 0;
+}
 /* Offsets of the group, [size][size]: of carrier j's columns in the rows of carrier i, or -1. */
 const int32_t *space_pair(const space *s, int64_t group);
 /* Length of `more_pair`. */

@@ -127,10 +127,19 @@ static int check_fields(const term_plugin *p, const check_subject *s, error *err
             !(f->shape == PF_SPIN && (f->support == PF_ON_PARTICLE || f->support == PF_KEPT_BY_PARTICLE)))
             return check_wrong(err, s, "field \"%s\" must be PF_SCALAR, PF_VECTOR, PF_TENSOR or PF_SYMMETRIC",
                                f->name);
-        if (f->support > PF_KEPT_BY_PARTICLE ||
-            ((f->support == PF_ON_MESH || f->support == PF_IN_PARTICLES) && f->order != 1 && f->order != 2))
-            return check_wrong(err, s, "field \"%s\": order %u, support %u; order 1 or 2 on the mesh is possible",
-                               f->name, f->order, f->support);
+        if (f->support > PF_KEPT_BY_PARTICLE || (f->support == PF_ON_MESH && f->order > 2) ||
+            (f->support == PF_IN_PARTICLES && f->order != 1 && f->order != 2))
+            return check_wrong(
+                err, s,
+                "field \"%s\": order %u, support %u; on the mesh order 1 or 2, or 0, one value a cell, "
+                "is possible",
+                f->name, f->order, f->support);
+        if (f->support == PF_ON_MESH && f->order == 0 && p->d.min_minor < 4)
+            return check_wrong(
+                err, s,
+                "field \"%s\" has order 0, which older ones than plugin interface 1.4 do not have; set "
+                ".min_minor = 4 in its pf_plugin (or its .order, if it was left out)",
+                f->name);
         for (uint32_t k = 0; k < i; k++)
             if (strcmp(p->d.field[k].name, f->name) == 0)
                 return check_wrong(err, s, "two fields are called \"%s\"", f->name);

@@ -100,6 +100,10 @@ static int check_place(const pf_slot *slot, const pf_field *f, uint32_t where, c
         return check_wrong(err, s,
                            "slot \"%s\": at PF_PARTICLE points fields of particles and of the problem are there",
                            slot->name);
+    if (f->support == PF_ON_MESH && f->order == 0 &&
+        (e == PF_GRAD || e == PF_DIV || e == PF_LAPLACE || where == PF_CUT))
+        return check_wrong(err, s, "slot \"%s\": field \"%s\" has one value a cell (order 0) and no %s", slot->name,
+                           f->name, term_eval_name(e));
     if (off_mesh && e != PF_VALUE && e != PF_DOT && e != PF_OLD && e != PF_DEFECT && e != PF_OTHER)
         return check_wrong(err, s, "slot \"%s\": field \"%s\" does not live on the mesh and has no %s", slot->name,
                            f->name, term_eval_name(e));

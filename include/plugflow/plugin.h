@@ -138,7 +138,8 @@ typedef struct pf_field {
     uint32_t support;          /* enum pf_support                                    */
     const char *reaction;      /* what its boundary reaction is: "force", "heat"; or NULL */
     const char *reaction_unit; /* "N"                                                     */
-    const char *constrains;    /* PF_IN_PARTICLES: the field it holds; off where that one is prescribed.
+    const char *constrains;    /* PF_IN_PARTICLES: the field it holds; off where that one is prescribed.  NULL: it
+                                * holds none, and lives on all cells that bodies reach into (1.4).
                                 * PF_ON_PARTICLE: the field that moves with    the body inside of it (1.1) */
 } pf_field;
 

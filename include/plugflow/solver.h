@@ -13,6 +13,7 @@
 
 #define PF_SOLVER_MAJOR 1u
 
+/* PF_ROWS_OF_NODE: or of a cell, of fields of order 0: x is its middle. */
 enum pf_row_kind { PF_ROWS_OF_NODE = 0, PF_ROWS_OF_PROBLEM = 1, PF_ROWS_OF_BODY = 2 };
 
 typedef struct pf_row_field {

@@ -109,7 +109,31 @@ TERM(tie, PF_CUT, IN(SLOT(dphi, phi, DEFECT, SCALAR)), OUT(SLOT(ds, phi, DEFECT,
         ds[i] = g * (speed / b->h[i] + b->shift) * dphi[i];
 }
 
+/* Of the second fluid: area, or volume; its first moments, momentum over its density; and the length, or area, of
+ * the interface, by the integral of |grad phi| over all levels */
+TERM(measures, PF_FLUID, IN(phi, grad_phi, u),
+     OUT(INTEGRAL(share, SCALAR, "m^3", OF_SECOND("volume")),
+         INTEGRAL(moment, VECTOR, "m^4", OF_SECOND("moment of the volume")),
+         INTEGRAL(flow, VECTOR, "m^4/s", OF_SECOND("volume times velocity")),
+         INTEGRAL(interface, SCALAR, "m^2", "area of the interface")),
+     PARAMS(), .flags = PF_OPTIONAL, .doc = "\\phi,\\quad \\phi\\,x,\\quad \\phi\\,u,\\quad |\\nabla\\phi|",
+     .cite = "Hysing et al. 2009, Int. J. Numer. Meth. Fluids 60:1259")
+{
+    LANES (i) {
+        NUM steep2 = 0;
+
+        share[i] = phi[i];
+        EACH (k) {
+            moment[k][i] = phi[i] * AT(b->x, k);
+            flow[k][i] = phi[i] * u[k][i];
+            steep2 += grad_phi[k][i] * grad_phi[k][i];
+        }
+        interface[i] = sqrt(steep2);
+    }
+}
+
 PLUGIN(level_set, "two fluids that do not mix",
        FIELDS(u, p, FIELD(phi, "1", "share of the second fluid", .order = 2)),
-       TERMS(transport, compression, tension, momentum, tie), .author = "plugflow", .license = "GPL-3.0-or-later")
+       TERMS(transport, compression, tension, momentum, tie, measures), .author = "plugflow",
+       .license = "GPL-3.0-or-later")
 #include PF_TWIN

@@ -34,11 +34,11 @@ static int shear_rate(ARGUMENTS)
 
 static int dissipation(ARGUMENTS)
 {
-    const pf_fluid *f = b->params;
+    const double *restrict mu = in[1];
 
     strain_squared(b, in[0], out[0]);
     PF_LANES_OF (b, i)
-        out[1][i] = out[0][i] *= f->viscosity;
+        out[1][i] = out[0][i] *= mu[i];
     return PF_OK;
 }
 
@@ -79,13 +79,13 @@ static int enstrophy(ARGUMENTS)
 
 static int kinetic_energy(ARGUMENTS)
 {
-    const pf_fluid *f = b->params;
+    const double *restrict rho = in[1];
 
     PF_LANES_OF (b, i)
         out[0][i] = 0;
     for (uint32_t a = 0; a < b->dim; a++)
         PF_LANES_OF (b, i)
-            out[0][i] += 0.5 * f->density * in[0][a * LD + i] * in[0][a * LD + i];
+            out[0][i] += 0.5 * rho[i] * in[0][a * LD + i] * in[0][a * LD + i];
     return PF_OK;
 }
 
@@ -134,23 +134,23 @@ static int mean_pressure(ARGUMENTS)
 }
 
 /* -2 mu D n */
-static void shear(const pf_batch *b, const double *grad_u, double *restrict to)
+static void shear(const pf_batch *b, const double *grad_u, const double *restrict mu, double *restrict to)
 {
-    const pf_fluid *f = b->params;
-
     for (uint32_t a = 0; a < b->dim; a++) {
         PF_LANES_OF (b, i)
             to[a * LD + i] = 0;
         for (uint32_t k = 0; k < b->dim; k++)
             PF_LANES_OF (b, i)
-                to[a * LD + i] -= f->viscosity * twice_strain(b, grad_u, a, k, i) * b->normal[k * LD + i];
+                to[a * LD + i] -= mu[i] * twice_strain(b, grad_u, a, k, i) * b->normal[k * LD + i];
     }
 }
 
-/* -(2 mu D - p) n */
-static void traction(const pf_batch *b, const double *grad_u, const double *p, double *restrict to)
+/* -(2 mu D - p) n of grad u, mu, p */
+static void traction(const pf_batch *b, const double *const *in, double *restrict to)
 {
-    shear(b, grad_u, to);
+    const double *p = in[2];
+
+    shear(b, in[0], in[1], to);
     PF_LANES_OF (b, i) {
         const double pressure = true_pressure(b, p, i);
 
@@ -161,7 +161,7 @@ static void traction(const pf_batch *b, const double *grad_u, const double *p, d
 
 static int wall_force(ARGUMENTS)
 {
-    traction(b, in[0], in[1], out[0]);
+    traction(b, in, out[0]);
     return PF_OK;
 }
 
@@ -169,7 +169,7 @@ static int wall_shear(ARGUMENTS)
 {
     double *restrict t = out[0];
 
-    shear(b, in[0], t);
+    shear(b, in[0], in[1], t);
     PF_LANES_OF (b, i) {
         double normal = 0;
 
@@ -186,7 +186,7 @@ static int surface_force(ARGUMENTS)
     const uint32_t d = b->dim, n = d == 2 ? 1 : 3;
     const double *f = out[0];
 
-    traction(b, in[0], in[1], out[0]);
+    traction(b, in, out[0]);
     for (uint32_t a = 0; a < n; a++) {
         const uint32_t p = d == 2 ? 0 : (a + 1) % 3, q = d == 2 ? 1 : (a + 2) % 3;
 

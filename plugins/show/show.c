@@ -74,11 +74,12 @@ static const pf_term term_dissipation = {
     SHOWS(dissipation),
     .where = PF_FLUID,
     .doc = "2\\mu\\,D(u):D(u)",
-    PF_IN(VELOCITY_GRADIENT),
+    PF_IN(VELOCITY_GRADIENT, PF_TAKES_VISCOSITY),
     PF_OUT(SHOW("dissipation", PF_SCALAR, "W/m^3", "power that viscosity dissipates, per volume"),
            INTEGRAL("dissipated", PF_SCALAR, "W", "power that viscosity dissipates")),
     VISCOUS,
-    PF_EXAMPLES({"grad u = (0 3; 1 0), mu = 3", 2, viscosity_3, (double[]){0, 3, 1, 0}, (double[]){48, 48}, 1e-15}),
+    PF_EXAMPLES(
+        {"grad u = (0 3; 1 0), mu = 3", 2, viscosity_3, (double[]){0, 3, 1, 0, 3}, (double[]){48, 48}, 1e-15}),
 };
 
 /* --- integrals over the fluid --- */
@@ -87,10 +88,10 @@ static const pf_term term_kinetic_energy = {
     SHOWS(kinetic_energy),
     .where = PF_FLUID,
     .doc = "\\frac12\\rho\\,|u|^2",
-    PF_IN(VELOCITY),
+    PF_IN(VELOCITY, PF_TAKES_DENSITY),
     PF_OUT(INTEGRAL("kinetic_energy", PF_SCALAR, "J", "kinetic energy of the fluid")),
     PF_PARAMS(pf_fluid, PF_DENSITY(pf_fluid)),
-    PF_EXAMPLES({"u = (3, 4), rho = 2", 2, density_2, (double[]){3, 4}, (double[]){25}, 1e-15}),
+    PF_EXAMPLES({"u = (3, 4), rho = 2", 2, density_2, (double[]){3, 4, 2}, (double[]){25}, 1e-15}),
 };
 
 static const pf_term term_enstrophy = {
@@ -126,7 +127,7 @@ static const pf_term term_wall_shear = {
     SHOWS(wall_shear),
     .where = PF_FACET,
     .doc = "-(1-n\\,n^T)\\,2\\mu D(u)\\,n",
-    PF_IN(VELOCITY_GRADIENT),
+    PF_IN(VELOCITY_GRADIENT, PF_TAKES_VISCOSITY),
     PF_OUT(INTEGRAL("wall_shear", PF_VECTOR, "N", "tangential force of the fluid on the boundary")),
     VISCOUS,
 };
@@ -135,7 +136,7 @@ static const pf_term term_wall_force = {
     SHOWS(wall_force),
     .where = PF_FACET,
     .doc = "-(2\\mu D(u)-p\\,I)\\,n",
-    PF_IN(VELOCITY_GRADIENT, PRESSURE),
+    PF_IN(VELOCITY_GRADIENT, PF_TAKES_VISCOSITY, PRESSURE),
     PF_OUT(INTEGRAL("wall_force", PF_VECTOR, "N", "force of the fluid on the boundary, by its traction")),
     PF_PARAMS(pf_fluid, PF_VISCOSITY(pf_fluid), TRUE_PRESSURE),
 };
@@ -156,7 +157,7 @@ static const pf_term term_surface_force = {
     SHOWS(surface_force),
     .where = PF_SURFACE,
     .doc = "-(2\\mu D(u)-p\\,I)\\,n,\\quad r\\times\\ldots",
-    PF_IN(VELOCITY_GRADIENT, PRESSURE),
+    PF_IN(VELOCITY_GRADIENT, PF_TAKES_VISCOSITY, PRESSURE),
     PF_OUT(INTEGRAL("surface_force", PF_VECTOR, "N", "force of the fluid on the body, by its traction"),
            INTEGRAL("surface_torque", PF_SPIN, "N m", "torque of the fluid on the body, by its traction")),
     PF_PARAMS(pf_fluid, PF_VISCOSITY(pf_fluid), TRUE_PRESSURE),

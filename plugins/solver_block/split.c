@@ -24,6 +24,9 @@ int split_fits(const pf_csr *a, int *pressure, const char **why)
             n++;
         }
     }
+    for (int64_t g = 0; !*why && g < a->n_node; g++)
+        if (u->kind[g] == PF_ROWS_OF_NODE && u->field[u->field_of[a->node[g]]].order == 0)
+            *why = "a field has one value a cell";
     if (!*why && (!vector || n == 0))
         *why = "there is no pair of a velocity of second order and a pressure of first order";
     else if (!*why && n > 1 && strcmp(u->field[*pressure].name, "p") != 0)

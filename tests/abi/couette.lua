@@ -14,11 +14,14 @@ local three = param("three", false, "in 3D")
 local function rate(t) return swings and G * math.sin(3 * t) or G end
 
 mesh  { box = three and {{0, 0, 0}, {1, 1, 1}} or {{0, 0}, {1, 1}}, cells = three and {2, 2, 2} or {3, 2}, shape = shape }
-fluid { density = 1, viscosity = 0.5 }
+fluid { density = 1, viscosity = what ~= "law" and 0.5 or nil }
 term "continuity" {}
 term "momentum" { without = { "inertia", "convection" } }
 if what == "strain" then
   term "memory.strain" { longest = longest }
+elseif what == "law" then
+  term "memory.structure" { builds = 0.7, breaks = 0.4, mu_s = 0 }
+  term "memory.law" {}
 elseif what == "structure" then
   term "memory.structure" { builds = 0.7, breaks = 0.4, mu_s = 3 }
 else
@@ -28,6 +31,6 @@ end
 local shear = three and function(x, y, z, t) return rate(t) * y, 0, 0 end or function(x, y, t) return rate(t) * y, 0 end
 boundary { periodic = { "left", "right" } }
 boundary "*" { u = shear }
-initial { u = shear, [what] = what == "structure" and 1 or 0 }
+initial { u = shear, [what == "law" and "structure" or what] = (what == "structure" or what == "law") and 1 or 0 }
 if adaptive then time { tolerance = 1e-3, stop = 1 } else time { step = step, stop = 1, scheme = "bdf1" } end
 output { probes = { here = three and {0.3, 0.4, 0.6} or {0.3, 0.4} }, forces = { "top" } }

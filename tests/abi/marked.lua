@@ -13,15 +13,20 @@ local h, x0, y0 = 1 / n, -0.09, -0.04
 local function mark(x, y) return 1 + 2 * x - y end
 
 mesh  { box = {{-0.5, -0.5}, {0.5, 0.5}}, cells = {n, n}, shape = shape }
-fluid { density = 1, viscosity = 1 }
+local law = param("law", false, "the viscosity comes from a memory that is 1/6 everywhere")
+fluid { density = 1, viscosity = not law and 1 or nil }
 term "continuity" {}
 term "momentum" {}
 particulate "sharp"
 term "memory.mark" {}
+if law then
+  term "memory.structure" { builds = 0, breaks = 0, mu_s = 0 }
+  term "memory.law" {}
+end
 term "memory.brand" {}
 term "memory.odometer" {}
 boundary "*" { u = {0, 0} }
-initial { mark = mark, brand = mark, way = 5 }
+initial { mark = mark, brand = mark, way = 5, structure = law and 1 / 6 or nil }
 particle { shape = kind == "disk" and disk { radius = R } or ellipse { a = R, b = 0.8 * R }, density = 1, at = {x0, y0},
            motion = "prescribed", velocity = W, spin = spin }
 time { scheme = "bdf1", step = T / steps, stop = T }

@@ -49,6 +49,16 @@ TERM(structure, PF_FLUID, IN(grad_u, STATE(old_structure, structure, SCALAR)),
     }
 }
 
+/* the same as a law, with the structure at the end of the last step */
+TERM(law, PF_CELL, IN(STATE(old_structure, structure, SCALAR)),
+     OUT(PROPERTY(viscosity, "Pa s", .doc = "viscosity")),
+     PARAMS(REAL(mu_0, "Pa s", "mu_0", .dflt = 0.5), REAL(mu_s, "Pa s", "mu_s", .dflt = 3)), .flags = PF_OPTIONAL,
+     .doc = "\\mu=\\mu_0+\\mu_s\\lambda", .cite = "Moore 1959")
+{
+    LANES (i)
+        viscosity[i] = mu_0 + mu_s * old_structure[i];
+}
+
 TERM(peak, PF_CELL, IN(grad_u, STATE(old_peak, peak, SCALAR)), OUT(STATE(peak, peak, SCALAR)), PARAMS(),
      .flags = PF_OPTIONAL, .doc = "\\max\\dot\\gamma", .cite = "definition")
 {
@@ -104,5 +114,5 @@ PLUGIN(memory, "what fluids remember",
               FIELD(way, "m", "way that it has gone", .support = PF_KEPT_BY_PARTICLE),
               FIELD(most, "N", "largest force so far", .support = PF_KEPT_BY_PARTICLE),
               FIELD(brand, "1", "mark of bodies", AT_POINTS)),
-       TERMS(strain, structure, peak, mark, brand, odometer), .author = "plugflow")
+       TERMS(strain, structure, law, peak, mark, brand, odometer), .author = "plugflow")
 #include PF_TWIN

@@ -74,6 +74,22 @@ static void structure_follows_its_equation(void **state)
     assert_between(error[0] / error[1], 1.9, 2.1);
 }
 
+/* A viscosity that depends on the structure at the end of the step before; one that is the same everywhere is felt
+ * by bodies as if fluid{} had it, at their surfaces and in cut cells, too. */
+static void a_law_may_have_a_memory(void **state)
+{
+    const double k = 0.7 + 0.4 * 2, rest = 0.7 / k, before = rest + (1 - rest) / pow(1 + k / 10, 9);
+    double force;
+
+    (void)state;
+    run("couette", "--set what=law", "law");
+    assert_near(last("law", "forces", "top.fx"), -(0.5 + 3 * before) * 2, 1e-8);
+    run("marked", "--set kind=ellipse", "number");
+    run("marked", "--set kind=ellipse --set law=true", "law");
+    force = last("number", "particles", "fx");
+    assert_near(last("law", "particles", "fx"), force, 1e-6 * fabs(force));
+}
+
 /* A step that a term refuses, at its end, is repeated in halves; nothing of the try is left. */
 static void a_step_that_is_repeated_leaves_nothing(void **state)
 {
@@ -150,6 +166,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strain_of_uniform_shear_is_rate_times_time),
         cmocka_unit_test(structure_follows_its_equation),
+        cmocka_unit_test(a_law_may_have_a_memory),
         cmocka_unit_test(a_step_that_is_repeated_leaves_nothing),
         cmocka_unit_test(the_largest_rate_so_far_is_kept),
         cmocka_unit_test(marks_go_along_with_bodies),
