@@ -303,6 +303,12 @@ typedef struct assembly_shown {
     arena memory;        /* of what the items have                                         */
 } assembly_shown;
 
+/* Sees what every term is given, after it was evaluated, from the thread that did it. */
+typedef struct assembly_watch {
+    void (*look)(void *ctx, const term_use *use, const pf_batch *b, const double *const *in);
+    void *ctx;
+} assembly_watch;
+
 /* Where the unknowns stand; all vectors have n_dof entries. */
 typedef struct assembly_state {
     double t, dt, shift;
@@ -316,6 +322,7 @@ typedef struct assembly_state {
     uint32_t only;             /* not 0: only terms with one of these flags, or of one of these kinds */
     assembly_power *power;     /* NULL: nobody asks */
     struct assembly_shown *shown; /* of assembly_show */
+    const assembly_watch *watch;  /* NULL: nobody looks */
 } assembly_state;
 
 int assembly_create(assembly *a, const space *s, const assembly_spec *spec, int n_spec, int n_thread, error *err);

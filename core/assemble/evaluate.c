@@ -118,11 +118,37 @@ static int find_nan_derivative(const pf_term *t, const pf_batch *b, double *cons
     return 0;
 }
 
-/* Whether the derivative by slot k, a property, is: the terms' own Jacobians give it, needed or not. */
-static int is_wanted(const assembly_class *c, const plan_use *p, uint32_t k)
+/* Blocks of the Jacobian that are wanted, one after the other and zero; how many numbers. */
+static size_t place_blocks(const assembly_class *c, const plan_use *p, int dim, size_t ld, double *at, double **jac)
 {
-    return p->use->term->in[k].eval == PF_PROPERTY &&
-           (c->input[p->in[k]].law || term_derives_by_hand(p->use->term, p->use->how));
+    const pf_term *t = p->use->term;
+    size_t used = 0;
+
+    for (uint32_t j = 0; j < t->n_out * t->n_in; j++) {
+        const uint32_t k = j % t->n_in;
+        const int rows = term_components(t->out[j / t->n_in].shape, dim);
+
+        jac[j] = p->trial[k] >= 0 || c->input[p->in[k]].law ? at + used : NULL;
+        used += jac[j] ? (size_t)(rows * term_components(t->in[k].shape, dim)) * ld : 0;
+    }
+    memset(at, 0, used * sizeof *at);
+    return used;
+}
+
+/* Derivatives by properties that are numbers are not wanted, but a Jacobian by hand gives them all the same: room
+ * for those; with `remove` they are taken out again. */
+static void place_unwanted(const assembly_class *c, const plan_use *p, int dim, size_t ld, double *at, double **jac,
+                           int remove)
+{
+    const pf_term *t = p->use->term;
+
+    for (uint32_t j = 0; term_derives_by_hand(t, p->use->how) && j < t->n_out * t->n_in; j++)
+        if (c->input[p->in[j % t->n_in]].number) {
+            jac[j] = remove ? NULL : at;
+            at += (size_t)(term_components(t->out[j / t->n_in].shape, dim) *
+                           term_components(t->in[j % t->n_in].shape, dim)) *
+                  ld;
+        }
 }
 
 /* The derivative of output o by slot k, a property, and that of the property by the unknowns it depends on. */
@@ -154,17 +180,13 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
 {
     const pf_term *t = p->use->term;
     double *jac[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
-    size_t ld = b->ld, used = 0;
     double *at = (double *)w->jac;
+    const size_t ld = b->ld, used = place_blocks(c, p, dim, ld, at, jac);
     int status;
 
-    for (uint32_t o = 0; o < t->n_out; o++)
-        for (uint32_t k = 0; k < t->n_in; k++) {
-            jac[o * t->n_in + k] = p->trial[k] >= 0 || is_wanted(c, p, k) ? at + used : NULL;
-            used += (size_t)(term_components(t->out[o].shape, dim) * term_components(t->in[k].shape, dim)) * ld;
-        }
-    memset(w->jac, 0, used * sizeof(double));
+    place_unwanted(c, p, dim, ld, at + used, jac, 0);
     status = term_jacobian(t, p->use->how, b, in, jac, w->room);
+    place_unwanted(c, p, dim, ld, at + used, jac, 1);
     if (!status && p->inside >= 0) /* blocks lie one after the other */
         inside_mask(c, p, w, at, (int)(used / ld));
     if (within)
@@ -176,7 +198,7 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
             double factor = strength(s, p) * (t->in[k].eval == PF_DOT ? b->shift : 1);
             size_t block;
 
-            if (t->in[k].eval == PF_PROPERTY && p->out[o] >= 0)
+            if (c->input[p->in[k]].law && p->out[o] >= 0)
                 add_chained(c, s, p, o, k, jac[o * t->n_in + k], dim, w);
             if (p->trial[k] < 0 || p->out[o] < 0 || factor == 0)
                 continue;
@@ -299,6 +321,8 @@ static int add_term(const assembly *a, const assembly_class *c, const assembly_s
     if (n_within == 0)
         return 0;
     status = evaluate_term(c, p, batch, b, in, out, w);
+    if (!status && s->watch)
+        s->watch->look(s->watch->ctx, p->use, b, in);
     for (uint32_t o = 0; masked && o < t->n_out; o++)
         reach_mask(within, out[o], (size_t)term_components(t->out[o].shape, dim) * b->ld);
     if (!status && diagnose && evaluate_find_nan(t, b, out, &w->report))

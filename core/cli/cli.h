@@ -15,7 +15,7 @@ typedef struct cli {
     int n_set;
     const char *plugin[16];
     int n_plugin;
-    const char *out;
+    const char *out, *case_path;
     int n_thread, json, quiet;
     double memory_limit;
     /* picture */

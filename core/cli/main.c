@@ -22,7 +22,7 @@ static const struct command {
     {"check", "CASE", "read, mesh and assemble once: unknowns, memory, cost; writes nothing", cli_check, 1, 1},
     {"plugins", "", "what is found, where, which version, what was refused and why", cli_plugins, 0, 0},
     {"describe", "[TERM]", "weak form, parameters, slots, citation", cli_describe, 0, 1},
-    {"test", "PLUGIN|TERM|FILE.so", "every block of a plugin in isolation", cli_test, 1, 1},
+    {"test", "PLUGIN|TERM|FILE.so", "every block of a plugin in isolation; --case CASE: of a case", cli_test, 0, 1},
     {"jacobian", "CASE", "derivatives on the real problem, per pair of blocks", cli_jacobian, 1, 1},
     {"new", "NAME", "a folder with a new plugin that runs: --fields, --on, --weak FORM", cli_new, 1, 1},
     {"build", "DIR|FILE.c", "compile a plugin", cli_build, 1, 1},
@@ -36,7 +36,8 @@ static const char options_text[] =
     "  --threads N          threads (default: all cores)\n"
     "  --plugin FILE.so     load this plugin, too (may be repeated; PLUGFLOW_PLUGIN_PATH adds folders)\n"
     "  --memory GB          stop if the factors need more (default: what is free)\n"
-    "  --json               machine-readable summary on stdout (run, check)\n"
+    "  --case CASE          test the terms of this case with its parameters, on its points and states (test)\n"
+    "  --json               machine-readable summary on stdout (run, check, test)\n"
     "  --quiet              only warnings and errors on stderr\n"
     "  picture: --field NAME --component x|y|z|magnitude --range LOW,HIGH --slice z=0.5 --width PIXELS --arrows\n"
     "  new: --on cells|fluid|solid|facets|surface|bodies|pairs --fields u,T,NAME:scalar|vector:ORDER --weak FORM\n"
@@ -95,6 +96,8 @@ static int parse_option(int argc, char **argv, int *i, cli *c, error *err)
         c->plugin[c->n_plugin++] = v;
     } else if ((v = option(argc, argv, i, "--out", &bad))) {
         c->out = v;
+    } else if ((v = option(argc, argv, i, "--case", &bad))) {
+        c->case_path = v;
     } else if ((v = option(argc, argv, i, "--threads", &bad))) {
         if (!bad)
             TRY(number_option("--threads", v, 1, &x, err));

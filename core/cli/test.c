@@ -2,11 +2,10 @@
  *
  * plugflow test PLUGIN|TERM|FILE.so: the blocks of a plugin in isolation.  Runs in a child, so
  * that a plugin that crashes is reported like one that is wrong. */
-#include "cli/cli.h"
+#include "cli/test.h"
 #include "cli/watched.h"
 
 #include "base/text.h"
-#include "term/selftest.h"
 #include "term/surroundings.h"
 
 #include <stdio.h>
@@ -74,6 +73,15 @@ static int load(const cli *o, watched *w, registry *r, term_file **file, const t
     return status;
 }
 
+static int finish(const cli *o, const selftest *s, const char *subject, error *err)
+{
+    if (!o->json)
+        printf("%d passed, %d failed\n", s->passed, s->failed);
+    return s->failed
+               ? error_set(err, ERR_PLUGIN, "%s: %d of %d checks failed", subject, s->failed, s->passed + s->failed)
+               : 0;
+}
+
 static int test(watched *w, void *arg, error *err)
 {
     static registry r;
@@ -84,6 +92,10 @@ static int test(watched *w, void *arg, error *err)
     const char *only;
     term_file *f;
 
+    if (o->case_path) {
+        TRY(cli_test_case(o, &s, err));
+        return finish(o, &s, o->case_path, err);
+    }
     TRY(load(o, w, &r, &f, &p, &only, err));
     if (f && !f->plugin.path) {
         if (!o->json)
@@ -93,11 +105,7 @@ static int test(watched *w, void *arg, error *err)
     if (!o->json)
         printf("%s %s (%s)\n", p->d.name, p->d.version, p->path);
     TRY(selftest_run(&s, p, only, err));
-    if (!o->json)
-        printf("%d passed, %d failed\n", s.passed, s.failed);
-    return s.failed
-               ? error_set(err, ERR_PLUGIN, "%s: %d of %d checks failed", p->d.name, s.failed, s.passed + s.failed)
-               : 0;
+    return finish(o, &s, p->d.name, err);
 }
 
 int cli_test(const cli *o, error *err)
@@ -106,9 +114,12 @@ int cli_test(const cli *o, error *err)
     text t = {0};
     int status;
 
+    if (!o->n_operand && !o->case_path)
+        return error_set(err, ERR_USAGE,
+                         "usage: plugflow test PLUGIN|TERM|FILE.so [options], or plugflow test --case CASE");
     if (o->json)
         printf("{\"checks\": [");
-    status = watched_run(test, (void *)o, o->operand[0], &w, err);
+    status = watched_run(test, (void *)o, o->n_operand ? o->operand[0] : o->case_path, &w, err);
     if (!o->json)
         return status;
     text_json(&t, err->text);

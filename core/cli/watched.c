@@ -68,7 +68,7 @@ static void prepare(watched *w)
 /* How the child ended, in words. */
 static int judge(const watched *w, int status, const char *subject, error *err)
 {
-    const char *in = *w->in ? w->in : "between its calls";
+    const char *in = *w->in ? w->in : "the test, between calls";
 
     if (WIFEXITED(status) && w->done)
         return WEXITSTATUS(status);

@@ -17,7 +17,7 @@ int describe(description *d, case_file *c, registry *r, warning_list *w, error *
     describe_properties(d, r);
     TRY(describe_boundaries(d, err));
     TRY(describe_bodies(d, err));
-    describe_settings(d);
+    TRY(describe_settings(d, r, err));
     TRY(describe_shown(d, err));
     TRY(describe_output(d, r, err));
     describe_check_formulation(d);

@@ -124,6 +124,7 @@ typedef struct solve_spec {
     int coarse_start;        /* of a steady case on a box; -1: where it pays */
     double fall;             /* of a step in time, see newton_options */
     const char *solver;      /* plugin of the linear solver, without "solver_"; NULL: the kernel chooses */
+    void *solver_params;     /* its own struct, filled; NULL: it has none */
     int n_continued;         /* parameters of terms that a steady case is continued in, */
     double *continued[DESCRIBE_MAX_CONTINUED], from[DESCRIBE_MAX_CONTINUED], to[DESCRIBE_MAX_CONTINUED];
 } solve_spec;
@@ -212,7 +213,9 @@ int describe_terms(description *d, registry *r, error *err);
 void describe_properties(description *d, registry *r);
 int describe_boundaries(description *d, error *err);
 int describe_bodies(description *d, error *err);
-void describe_settings(description *d);
+int describe_settings(description *d, registry *r, error *err);
+/* The linear solver that solve {} names, and its keys (solver_keys.c). */
+int describe_solver(description *d, registry *reg, reader *r, error *err);
 /* "plugin.term" of a plugin that can be found which shows a field of this name, or NULL. */
 const char *describe_who_shows(registry *r, const char *name);
 /* What the shown terms show, before output{}. */
@@ -253,6 +256,7 @@ void describe_check_kept(const description *d);
 /* pf_term.init of all terms.  ERR_CASE. */
 int describe_start(description *d, error *err);
 /* Parameters and data of a term that is on, from its line and from fluid{}. */
+int describe_read_param(reader *r, const pf_param *q, int dim, void *params, int *status, error *err);
 int describe_term_keys(description *d, reader *own, reader *fluid, term_use *u, error *err);
 /* Says that a parameter which a term on this line has to have is not there. */
 void describe_missing(description *d, const case_block *own, const pf_param *q);

@@ -32,8 +32,8 @@ static void no_field(description *d, registry *plugins, reader *r, const char *w
             wrong, d->fields.f[f].doc, list.s ? list.s : "none");
     else if (term)
         case_wrong(d->c, r->b, "fields",
-                   "output: there is no field \"%s\"; the line term \"%s\" {} shows it; without that there are: %s",
-                   wrong, term, list.s ? list.s : "none");
+                   "output: there is no field \"%s\"; there are: %s; the line term \"%s\" {} shows it", wrong,
+                   list.s ? list.s : "none", term);
     else if (!d->incomplete)
         case_wrong(d->c, r->b, "fields", "output: there is no field \"%s\"%s; there are: %s", wrong,
                    text_hint(text_nearest(wrong, name, (size_t)n)).s, list.s ? list.s : "none");

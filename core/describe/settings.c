@@ -179,7 +179,7 @@ static void read_continuation(description *d, reader *r)
  * Where disks crowd, more than this grows. */
 #define STEP_LINEAR 1e-5
 
-static void read_solve(description *d)
+static int read_solve(description *d, registry *plugins, error *err)
 {
     solve_spec *o = &d->solve;
     reader r;
@@ -202,17 +202,19 @@ static void read_solve(description *d)
                   &o->solver);
     if (o->solver && strcmp(o->solver, "auto") == 0)
         o->solver = NULL;
+    TRY(describe_solver(d, plugins, &r, err));
     reader_bool(&r, "coarse_start", "whether a steady case on a box starts from the solution on half as many cells",
                 &o->coarse_start);
     read_continuation(d, &r);
     reader_close(&r);
+    return 0;
 }
 
-void describe_settings(description *d)
+int describe_settings(description *d, registry *r, error *err)
 {
     read_fields(d, "initial", d->initial, d->has_initial);
     read_fields(d, "exact", d->exact, d->has_exact);
     read_fields(d, "offset", d->offset, d->has_offset);
     read_time(d);
-    read_solve(d);
+    return read_solve(d, r, err);
 }

@@ -10,8 +10,8 @@
 
 enum { MOST_INT = 1000000000 };
 
-/* One parameter from a reader into the term's struct.  *status: as the readers return. */
-static int read_param(reader *r, const pf_param *q, int dim, void *params, int *status, error *err)
+/* One parameter from a reader into the struct of its term or solver.  *status: as the readers return. */
+int describe_read_param(reader *r, const pf_param *q, int dim, void *params, int *status, error *err)
 {
     const int bounded = q->min < q->max, unit = strcmp(q->unit, "1") != 0;
     char *at = (char *)params + q->offset, *doc;
@@ -68,9 +68,9 @@ static int read_params(description *d, reader *own, reader *fluid, term_use *u, 
         int status = 0;
 
         if (q->flags & PF_SHARED)
-            TRY(read_param(fluid, q, d->dim, u->params, &status, err));
+            TRY(describe_read_param(fluid, q, d->dim, u->params, &status, err));
         if (reader_has(own, q->name) || !status) /* the term's own line has the last word */
-            TRY(read_param(own, q, d->dim, u->params, &status, err));
+            TRY(describe_read_param(own, q, d->dim, u->params, &status, err));
         u->given |= status ? 1u << i : 0;
         if (status || !(q->flags & PF_REQUIRED))
             continue;

@@ -154,7 +154,7 @@ int problem_create(problem *p, case_file *c, registry *r, int n_thread, error *e
         TRY(bodies_check_places(d, &p->mesh, &p->grid, err));
         TRY(case_finish(c, err));
     }
-    solvers.each_step = describe_moves(d);
+    solvers = (linear_choice){.each_step = describe_moves(d), .params = d->solve.solver_params};
     TRY(linear_find(&solvers, r, d->solve.solver, err));
     TRY(build(p, &solvers, err));
     p->setup_seconds = clock_seconds() - start;

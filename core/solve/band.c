@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solve/band.h"
+#include "solve/instance.h"
 
 #include "base/list.h"
 
@@ -13,11 +14,12 @@
 #define ANALYSIS 250.0
 #define SOLUTION 4.0
 
-int band_create(band *b, const pf_solver *solver, const space *s, int n_thread, error *err)
+int band_create(band *b, const pf_solver *solver, const void *params, const space *s, int n_thread, error *err)
 {
     memset(b, 0, sizeof *b);
     b->space = s;
     b->solver = solver;
+    b->params = params;
     b->n_thread = n_thread;
     ARENA_NEW(&b->memory, b->then, s->mesh->n_cell, err);
     ARENA_NEW(&b->memory, b->now, s->mesh->n_cell, err);
@@ -198,7 +200,7 @@ static int prepare(band *b, const pf_csr *a, error *err)
         return 0;
     find_rim(b, a);
     TRY(take_matrix(b, a, err));
-    if (!b->self && (status = b->solver->create(&b->self, b->n_thread, why, sizeof why)))
+    if (!b->self && (status = solver_instance(b->solver, b->params, b->n_thread, &b->self, why, sizeof why)))
         return failed(b, status, why, err);
     status = b->solver->analyze(b->self, &b->a, &b->cost, why, sizeof why);
     if (status)

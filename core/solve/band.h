@@ -21,6 +21,7 @@
 typedef struct band {
     const space *space;
     const pf_solver *solver;
+    const void *params; /* of the solver, see linear_choice */
     int n_thread;
     uint8_t *then, *now; /* [n_cell] 1: a body was near when the factors were made; is near now */
     uint8_t *cell;       /* [n_cell] of the band */
@@ -49,7 +50,7 @@ typedef struct band {
     arena memory;
 } band;
 
-int band_create(band *b, const pf_solver *solver, const space *s, int n_thread, error *err);
+int band_create(band *b, const pf_solver *solver, const void *params, const space *s, int n_thread, error *err);
 void band_destroy(band *b);
 /* Bodies are elsewhere, and the space may have other unknowns. */
 void band_place(band *b, const body_points *now);

@@ -2,6 +2,7 @@
  *
  * Which linear solver: by the predicted operations of a factorisation, and by memory. */
 #include "base/clock.h"
+#include "solve/instance.h"
 #include "solve/linear.h"
 
 #include <math.h>
@@ -94,7 +95,8 @@ int linear_analyze(linear *l, int method, int *unfit, error *err)
     if (method == METHOD_DIRECT)
         l->band.factors = 0; /* those of before go with the analysis */
     l->stats.cost = (pf_solver_cost){0};
-    if (!l->instance[method] && solver->create(&l->instance[method], l->n_thread, why, sizeof why))
+    if (!l->instance[method] &&
+        solver_instance(solver, l->choice.params, l->n_thread, &l->instance[method], why, sizeof why))
         return error_set(err, ERR_MEMORY, "linear solver %s: %s", solver->name, why);
     if (!shares(solver))
         TRY(packed_structure(&l->packed, l->space, &l->a, err));

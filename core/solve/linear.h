@@ -16,6 +16,7 @@ enum { LINEAR_MAX_ITERATIONS = 30 }; /* of GMRES with the factors of an earlier 
 /* Solvers to take: one, or a factorisation and one that iterates, of which the prediction chooses. */
 typedef struct linear_choice {
     const pf_solver *direct, *iterative; /* NULL: not that one */
+    const void *params;                  /* of the one that the case names; NULL: it has none */
     int each_step;                       /* bodies move: every step has a matrix that old factors are far from */
 } linear_choice;
 

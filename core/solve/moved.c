@@ -15,7 +15,7 @@ int linear_move(linear *l, const body_points *now, error *err)
     if (!l->choice.direct)
         return 0;
     if (!l->band.space)
-        TRY(band_create(&l->band, l->choice.direct, l->space, l->n_thread, err));
+        TRY(band_create(&l->band, l->choice.direct, l->choice.params, l->space, l->n_thread, err));
     band_place(&l->band, now);
     return 0;
 }

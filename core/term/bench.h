@@ -57,6 +57,8 @@ int bench_points(bench *k, error *err);
 void bench_example_points(bench *k);
 /* Points and inputs in the opposite order. */
 void bench_reverse(bench *k);
+/* Points, inputs and parameters of a batch of a case instead of random ones. */
+void bench_capture(bench *k, const pf_batch *b, const double *const *in, const void *params);
 /* Lanes behind the points repeat the first ones. */
 void bench_repeat(double *row);
 

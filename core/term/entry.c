@@ -74,6 +74,8 @@ static int made_with(const bench *k, const double *v, double factor, const char 
         const double a = p < k->t->n_param ? real_param(k, p) : 1;
         const char *name = p < k->t->n_param ? k->t->param[p].name : "";
 
+        if (p < k->t->n_param && fabs(a) == 1)
+            continue; /* any number is that times others */
         if (p < k->t->n_param && is_product(v, factor, a, NULL)) {
             snprintf(text, n, " = %s%s", prefix, name);
             return 1;
@@ -168,7 +170,8 @@ void entry_first_wrong(const bench *k, uint32_t o, uint32_t i, const double *giv
         guess(k, o, i, a, b, truth, why, sizeof why);
         snprintf(text, n, "d %s / d %s is %.6g%s, should be %.6g%s%s",
                  entry_name(&k->t->out[o], k->dim, j / cols, r, sizeof r),
-                 entry_name(&k->t->in[i], k->dim, j % cols, c, sizeof c), a[worst], of_a, b[worst], of_b, why);
+                 entry_name(&k->t->in[i], k->dim, j % cols, c, sizeof c), a[worst] + 0.0, of_a, b[worst] + 0.0,
+                 of_b, why); /* no -0 */
         return;
     }
 }

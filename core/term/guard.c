@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The zones hold numbers that are none (NaN), so that what is read there shows, too. */
+ * The zones hold numbers that are none (NaN), so that what is read there shows, too; of each array its own, as what
+ * is computed from a NaN has its bits. */
 #include "term/guard.h"
 
 #include <stdint.h>
@@ -9,18 +10,18 @@
 
 enum { ZONE = 1024 }; /* bytes before, and behind after what aligns */
 
-static const uint64_t mark = 0x7ff8a5c3e1d20f4bULL; /* a NaN */
+static const uint64_t marks = 0x7ff8a5c3e1d20f4bULL; /* a NaN; what is added leaves it one */
 
 /* The zone behind begins right after the last byte. */
-static unsigned char mark_at(const unsigned char *at)
+static unsigned char mark_at(uint64_t mark, const unsigned char *at)
 {
     return (unsigned char)(mark >> 8 * ((uintptr_t)at % 8));
 }
 
-static void paint(unsigned char *from, const unsigned char *to)
+static void paint(uint64_t mark, unsigned char *from, const unsigned char *to)
 {
     for (; from < to; from++)
-        *from = mark_at(from);
+        *from = mark_at(mark, from);
 }
 
 void *guard_new(guard *g, const char *kind, const char *name, size_t count, size_t unit, size_t row, int fixed)
@@ -31,12 +32,12 @@ void *guard_new(guard *g, const char *kind, const char *name, size_t count, size
 
     if (!block)
         return NULL;
-    *a = (guard_array){kind, name, block + ZONE, NULL, count, unit, row};
+    *a = (guard_array){kind, name, block + ZONE, NULL, marks + ((uint64_t)g->n << 20), count, unit, row};
     if (fixed && !(a->kept = arena_alloc(g->memory, bytes + 1, 1)))
         return NULL;
     g->n++;
-    paint(block, a->at);
-    paint(a->at + bytes, a->at + bytes + ZONE);
+    paint(a->mark, block, a->at);
+    paint(a->mark, a->at + bytes, a->at + bytes + ZONE);
     return a->at;
 }
 
@@ -48,14 +49,14 @@ void guard_keep(guard *g)
 }
 
 /* Bytes of the zone from the array on that were written, counted to the last one; `step` is the direction. */
-static size_t reach(const unsigned char *from, int step)
+static size_t reach(uint64_t mark, const unsigned char *from, int step)
 {
     size_t far = 0;
 
     for (size_t i = 0; i < ZONE; i++) {
         const unsigned char *at = step > 0 ? from + i : from - 1 - i;
 
-        if (*at != mark_at(at))
+        if (*at != mark_at(mark, at))
             far = i + 1;
     }
     return far;
@@ -79,7 +80,7 @@ static long altered(const guard_array *a)
 
 static int array_broken(const guard_array *a, char *text, size_t n)
 {
-    const size_t behind = reach(a->at + a->count * a->unit, 1), before = reach(a->at, -1);
+    const size_t behind = reach(a->mark, a->at + a->count * a->unit, 1), before = reach(a->mark, a->at, -1);
     char name[160];
     long changed;
 
@@ -116,8 +117,8 @@ int guard_broken(guard *g, char *text, size_t n)
         if (!broken)
             snprintf(text, n, "%s", why);
         broken = 1;
-        paint(a->at - ZONE, a->at);
-        paint(a->at + a->count * a->unit, a->at + a->count * a->unit + ZONE);
+        paint(a->mark, a->at - ZONE, a->at);
+        paint(a->mark, a->at + a->count * a->unit, a->at + a->count * a->unit + ZONE);
         if (a->kept)
             memcpy(a->at, a->kept, a->count * a->unit);
     }

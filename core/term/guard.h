@@ -9,6 +9,7 @@
 #include "base/error.h"
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* More than a point function of one term can have: three times all slots, all blocks twice, the points. */
 enum { GUARD_MAX = 420 };
@@ -16,6 +17,7 @@ enum { GUARD_MAX = 420 };
 typedef struct guard_array {
     const char *kind, *name;  /* "output", "grad_v"                               */
     unsigned char *at, *kept; /* kept: a copy of what must not change, or NULL   */
+    uint64_t mark;            /* what the zones hold                              */
     size_t count, unit;       /* numbers, bytes of one                            */
     size_t row;               /* numbers of a component, 0: it has no components  */
 } guard_array;

@@ -17,5 +17,9 @@ typedef struct selftest {
 
 /* Tests all terms of the plugin, or the one called `only`. */
 int selftest_run(selftest *s, const term_plugin *p, const char *only, error *err);
+/* The same on points, values and parameters of a case, of which a batch is given: only what is wrong is told.
+ * *some: 0 if the term cannot be computed there. */
+int selftest_batch(selftest *s, const term_use *use, const pf_batch *b, const double *const *in, int *some,
+                   error *err);
 
 #endif

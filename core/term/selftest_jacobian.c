@@ -137,7 +137,8 @@ static void test_jacobian(bench *k)
         unknowns += term_is_derived(&t->in[i]);
     if (!unknowns || !derive(k, t->residual_c ? TERM_COMPLEX : TERM_FD, k->truth, how))
         return;
-    if (t->residual_c && !twin_derives(k))
+    /* states of cases lie in kinks, as |u| has at rest, of which differences say nothing */
+    if (t->residual_c && !k->captured && !twin_derives(k))
         return;
     test_depends(k);
     if (t->jacobian && !derive(k, TERM_ANALYTIC, k->jac, "Jacobian"))

@@ -184,17 +184,30 @@ static void emit_term(const sheet *s, text *t)
     text_add(t, "     .doc = \"%s\", .cite = \"say from where\")\n", f->request->form);
 }
 
+/* LANES round all that follows, if there is anything that is computed once a point. */
+static void open_lanes(const names *n, text *once, text *t)
+{
+    text_add(t, n->n_known ? "{\n    LANES (i) {\n%s\n" : "{\n", once->s);
+    text_free(once);
+}
+
+static void close_lanes(const names *n, text *t)
+{
+    text_add(t, n->n_known ? "    }\n}\n" : "}\n");
+}
+
 static void emit_residual(sheet *s, text *t)
 {
     names n = {.f = s->f};
-    text_add(t, "{\n    LANES (i) {\n");
+    text once = {0};
+
     for (int o = 0; o < s->n_output; o++)
-        emit_once(s->f, &n, s->output[o].value, "NUM", t);
-    text_add(t, n.n_known ? "\n" : "");
+        emit_once(s->f, &n, s->output[o].value, "NUM", &once);
+    open_lanes(&n, &once, t);
     for (int o = 0; o < s->n_output; o++)
         emit_assignment(s->f, &n, s->output[o].test->name, s->output[o].at, s->output[o].test->rank, "=",
                         s->output[o].value, "NUM", t);
-    text_add(t, "    }\n}\n");
+    close_lanes(&n, t);
 }
 
 /* One addend of a block; its deltas are no factors but places. */
@@ -232,16 +245,17 @@ static void emit_jacobian(sheet *s, text *t)
 {
     form *f = s->f;
     names n = {.f = f};
+    text once = {0};
 
     text_add(t, "\nJACOBIAN(%s, ", f->request->name);
     list(f, "IN", 1u << SYM_SLOT, t);
     text_add(t, ", PARAMS(%s),\n         BLOCKS(", n_keys(f) ? "KEYS" : "");
     for (int i = 0; i < s->n_block; i++)
         text_add(t, "%sBLOCK(%s, %s)", i ? ", " : "", s->block[i].out->test->entry, s->block[i].in->entry);
-    text_add(t, "))\n{\n    LANES (i) {\n");
+    text_add(t, "))\n");
     for (int i = 0; i < s->n_block; i++)
-        emit_once(f, &n, s->block[i].value, "double", t);
-    text_add(t, n.n_known ? "\n" : "");
+        emit_once(f, &n, s->block[i].value, "double", &once);
+    open_lanes(&n, &once, t);
     for (int i = 0; i < s->n_block; i++) {
         const expr *e = index_spread(f, s->block[i].value);
         const int n_addend = e->kind == X_ADD && index_has_delta(e, -1) ? e->n : 1;
@@ -249,7 +263,7 @@ static void emit_jacobian(sheet *s, text *t)
         for (int k = 0; k < n_addend; k++)
             emit_addend(f, &n, &s->block[i], n_addend > 1 ? e->arg[k] : e, n_addend > 1 ? "+=" : "=", t);
     }
-    text_add(t, "    }\n}\n");
+    close_lanes(&n, t);
 }
 
 static void emit_plugin(const form *f, text *t)

@@ -162,8 +162,9 @@ void emit_once(form *f, names *n, const expr *e, const char *type, text *t)
 void emit_assignment(form *f, names *n, const char *target, const int *at, int n_at, const char *op, const expr *e,
                      const char *type, text *t)
 {
-    const int n_known = n->n_known, n_index = n->n_index, braces = has_sum(n, e);
-    int depth = 2;
+    const int n_known = n->n_known, n_index = n->n_index, braces = has_sum(n, e), own_lanes = n_known == 0;
+    const int from = own_lanes ? 1 : 2;
+    int depth = from;
 
     for (int k = 0; k < n_at; k++) {
         int before = 0;
@@ -175,8 +176,12 @@ void emit_assignment(form *f, names *n, const char *target, const int *at, int n
         indent(t, depth++);
         text_add(t, "EACH (%s)\n", print_index_name(n, at[k]));
     }
+    if (own_lanes) {
+        indent(t, depth++);
+        text_add(t, "LANES (i)\n");
+    }
     if (braces) {
-        if (depth > 2) {
+        if (depth > from) {
             t->n--; /* the line end */
             text_add(t, " {\n");
         }
@@ -189,7 +194,7 @@ void emit_assignment(form *f, names *n, const char *target, const int *at, int n
     text_add(t, "[i] %s ", op);
     print_expr(n, e, t);
     text_add(t, ";\n");
-    if (braces && depth > 2) {
+    if (braces && depth > from) {
         indent(t, depth - 1);
         text_add(t, "}\n");
     }

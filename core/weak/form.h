@@ -124,7 +124,7 @@ void print_expr(names *n, const expr *e, text *t);
 
 /* --- emit.c, emit_block.c --- */
 /* Statements of `type` ("NUM", "double") that give names to what is computed once a point; and one that computes
- * target = e (or +=), target with the indices `at`. */
+ * target = e (or +=), target with the indices `at`, in lanes of its own if nothing has a name. */
 void emit_once(form *f, names *n, const expr *e, const char *type, text *t);
 void emit_assignment(form *f, names *n, const char *target, const int *at, int n_at, const char *op, const expr *e,
                      const char *type, text *t);

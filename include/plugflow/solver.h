@@ -11,6 +11,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <plugflow/plugin.h>
+
 #define PF_SOLVER_MAJOR 1u
 
 /* PF_ROWS_OF_NODE: or of a cell, of fields of order 0: x is its middle. */
@@ -98,7 +100,14 @@ typedef struct pf_solver {
      * enough inside of the iteration; the kernel then corrects the result by its own residual. */
     int (*update)(void *self, const pf_csr *matrix, char *err, size_t nerr);
     void (*multiply)(void *self, const double *x, double *y);
+    /* Keys of solve { solver = "NAME", key = ... }, as a term describes its own, and the struct that they go in; it
+     * is handed over once, before analyze.  All 0 or NULL: there are none. */
+    uint32_t n_param, param_size, params_bytes;
+    const pf_param *param;
+    int (*configure)(void *self, const void *params, char *err, size_t nerr);
 } pf_solver;
 
 typedef const pf_solver *pf_solver_entry_fn(char *err, size_t nerr);
+/* The exported symbol: the description, or NULL with the reason in err. */
+PF_EXPORT const pf_solver *pf_solver_entry(char *err, size_t nerr);
 #endif

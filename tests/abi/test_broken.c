@@ -90,6 +90,7 @@ static const struct CMUnitTest tests[] = {
     LOADS("frozen_header_1_0_loads", "frozen_1_0.so"),
     LOADS("frozen_header_1_1_loads", "frozen_1_1.so"),
     LOADS("frozen_header_1_2_loads", "frozen_1_2.so"),
+    LOADS("frozen_header_1_3_loads_with_laplacian_and_metric", "frozen_1_3.so"),
     LOADS("laplacian_and_metric_of_1_3_pass", "supg.so"),
     CALL("they_are_described", "describe", "supg.so", "", EXIT_OK, "Laplacian of T, scalar",
          "; reads the metric of the element"),
@@ -166,6 +167,15 @@ static const struct CMUnitTest tests[] = {
     TOLD(example_of_no_dimension, "example \"one point\" has dimension 0; 2 or 3 is possible"),
     TOLD(example_without_output, "example \"one point\" lacks its values"),
     TOLD(nan_in_example, "example \"one point\": v[0] is ", "nan, expected 21"),
+
+    CALL("the_terms_of_a_case_are_tested_in_its_conditions",
+         "test --case \"$PLUGFLOW_SOURCE/tests/abi/planted.lua\" --plugin", "sound.so", "", EXIT_OK,
+         "ok     broken.convection  ", " batches of the case", " 0 failed"),
+    CALL("a_fault_is_found_in_the_conditions_of_a_case",
+         "test --case \"$PLUGFLOW_SOURCE/tests/abi/planted.lua\" --plugin", "transpose.so", "", EXIT_PLUGIN,
+         "WRONG  convection  d v / d u in 2D: ", "d v[0] / d u[1] is "),
+    CALL("a_report_in_json", "test --json", "transpose.so", "", EXIT_PLUGIN,
+         "{\"ok\": false, \"text\": \"convection  d v / d u in 2D: transpose", "\"failed\": 2, \"exit\": 5"),
 
     /* residuals */
     TOLD(unwritten, "output \"v\"[0] in 2D is not written; the residual must assign every output"),

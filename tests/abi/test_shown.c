@@ -174,7 +174,7 @@ static void what_cannot_be_shown_is_refused_with_why(void **state)
                "case.lua:6: term \"shown.square\": shown.square shows \"moment\", and so does shown.square; give "
                "each line a name = \"...\" for its columns");
     assert_ran(run(BOX("4", "quads") FLUID "boundary '*' { u = {0, 0} }\noutput { fields = {'square'} }\n", "n"), 3,
-               "there is no field \"square\"; the line term \"shown.square\" {} shows it");
+               "there is no field \"square\"; there are: ", "; the line term \"shown.square\" {} shows it");
     assert_ran(run(BOX("4", "quads") FLUID
                    "term 'shown.rate' {}\nboundary '*' { u = {0, 0} }\noutput { integrals = {'left'} }\n",
                    "n"),

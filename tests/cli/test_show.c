@@ -219,10 +219,9 @@ static void what_shows_a_field_is_told(void **state)
 
     (void)state;
     snprintf(text, sizeof text, "%soutput { fields = {'vorticity'} }\n", box);
-    assert_ran(
-        plugflow("check %s", put_file("case.lua", text)), 3,
-        "output: there is no field \"vorticity\"; the line term \"show.vorticity\" {} shows it; without that "
-        "there are: u (velocity), p (pressure)");
+    assert_ran(plugflow("check %s", put_file("case.lua", text)), 3,
+               "output: there is no field \"vorticity\"; there are: u (velocity), p (pressure); the line term "
+               "\"show.vorticity\" {} shows it");
     snprintf(text, sizeof text, "%sterm 'show.flow_rate' {}\noutput { integrals = {'lefft'} }\n", box);
     assert_ran(plugflow("check %s", put_file("case.lua", text)), 3,
                "output: integrals: no boundary is called \"lefft\"; did you mean \"left\"?");
