@@ -85,9 +85,10 @@
 #define EACH_SYM(n)  for (uint32_t n = 0; n < PF_N_SYM; n++)
 #define DIM          (b->dim)
 
-#define PF_N_SYM         (b->dim == 2 ? 3u : 6u)
-#define AT_SYM(a, k)     ((a) < (k) ? PF_SYM_OF(a, k) : PF_SYM_OF(k, a))
-#define PF_SYM_OF(a, k)  ((a) * (2 * DIM - 1 - (a)) / 2 + (k)) /* rows of the upper triangle, one after the other */
+#define PF_N_SYM        (b->dim == 2 ? 3u : 6u)
+#define AT_SYM(a, k)    ((a) < (k) ? PF_SYM_OF(a, k) : PF_SYM_OF(k, a))
+#define PF_SYM_OF(a, k) ((a) * (2 * DIM - 1 - (a)) / 2 + (k)) /* rows of the upper triangle, one after the other   \
+                                                               */
 
 #define AT(...)                  PF_PICK(__VA_ARGS__, PF_AT2, PF_AT1, )(__VA_ARGS__)
 #define PF_PICK(a, b, c, d, ...) d

@@ -16,9 +16,9 @@ TERM(relax, PF_FLUID, IN(VALUE(tau), GRAD(tau), grad_u), OUT(TEST(tau, w), GRAD_
                 w[AT_SYM(a, k)][i] = tau[AT_SYM(a, k)][i] - grad_u[a][k][i] - grad_u[k][a][i];
                 grad_v[a][k][i] = (1.0 + a) * tau[AT_SYM(a, k)][i];
             }
-        EACH_SYM (n)
-            EACH (l)
-                grad_w[n][l][i] = (1.0 + n) * grad_tau[n][l][i];
+        EACH_SYM(n)
+        EACH (l)
+            grad_w[n][l][i] = (1.0 + n) * grad_tau[n][l][i];
     }
 }
 
@@ -27,8 +27,8 @@ JACOBIAN(relax, IN(VALUE(tau), GRAD(tau), grad_u), PARAMS(),
                 BLOCK(GRAD_TEST(tau, w), GRAD(tau))))
 {
     LANES (i) {
-        EACH_SYM (n)
-            dw_dtau[n][n][i] = 1;
+        EACH_SYM(n)
+        dw_dtau[n][n][i] = 1;
         EACH (a)
             EACH (k) {
                 dgrad_v_dtau[a][k][AT_SYM(a, k)][i] = 1.0 + a;
@@ -37,9 +37,9 @@ JACOBIAN(relax, IN(VALUE(tau), GRAD(tau), grad_u), PARAMS(),
                 dw_dgrad_u[AT_SYM(a, k)][a][k][i] -= 1;
                 dw_dgrad_u[AT_SYM(a, k)][k][a][i] -= 1;
             }
-        EACH_SYM (n)
-            EACH (l)
-                dgrad_w_dgrad_tau[n][l][n][l][i] = 1.0 + n;
+        EACH_SYM(n)
+        EACH (l)
+            dgrad_w_dgrad_tau[n][l][n][l][i] = 1.0 + n;
     }
 }
 
@@ -73,7 +73,6 @@ TERM(pull, PF_PAIR,
         }
 }
 
-PLUGIN(slots, "slots of term.h",
-       FIELDS(u, p, phi, U, FIELD(tau, "Pa", "stress", .order = 1)), TERMS(relax, law, smooth, pull),
-       .author = "plugflow")
+PLUGIN(slots, "slots of term.h", FIELDS(u, p, phi, U, FIELD(tau, "Pa", "stress", .order = 1)),
+       TERMS(relax, law, smooth, pull), .author = "plugflow")
 #include PF_TWIN
