@@ -52,7 +52,7 @@
  *                        of real and of complex numbers
  * creal(x)               to compare: if (creal(u) < 0)
  *
- * Lists (slots of IN, of OUT, keys, blocks, fields, terms) have up to 16 entries. */
+ * Lists (slots of IN, of OUT, keys, blocks, fields, terms) have up to 32 entries. */
 /* clang-format on */
 #ifndef PLUGFLOW_TERM_H
 #define PLUGFLOW_TERM_H
