@@ -11,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-
 struct showing {
     shown shown;
     int evaluated, projected; /* of the solution that r->x is */
