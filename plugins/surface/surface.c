@@ -12,11 +12,14 @@
 
 #include <plugflow/rigid_motion.h>
 
-#define NITSCHE_KEYS   VISCOSITY, REAL(gamma, "1", "penalty of the slip, in mu/h", .dflt = 20, PF_NOT_NEGATIVE)
+#define NITSCHE_KEYS VISCOSITY, REAL(gamma, "1", "penalty of the slip, in mu/h", .dflt = 20, PF_NOT_NEGATIVE)
+/* Once inlined, the loops over lanes round them are loops of vectors. */
+#define INLINE __attribute__((always_inline)) static inline
+
 #define TIE(NAME, DOC) REAL(NAME, "1", DOC, .dflt = 0.1, PF_NOT_NEGATIVE)
 
 /* w = u - U - omega x r at lane i */
-static inline void F(slip)(const pf_batch *b, const NUM *u, const NUM *U, const NUM *omega, uint32_t i, NUM *w)
+INLINE void F(slip)(const pf_batch *b, const NUM *u, const NUM *U, const NUM *omega, uint32_t i, NUM *w)
 {
     EACH (a)
         w[a] = AT(u, a) - AT(U, a) - F(pf_turn)(b, omega, a, i);
@@ -24,7 +27,7 @@ static inline void F(slip)(const pf_batch *b, const NUM *u, const NUM *U, const 
 
 /* What the test functions meet of z at lane i: the fluid gets it, the body what is opposite, force and torque.  n
  * rows lie between the components of v, V and xi: 1, and of a block of derivatives its columns. */
-static inline void F(give)(const pf_batch *b, const NUM *z, uint32_t n, uint32_t i, NUM *v, NUM *V, NUM *xi)
+INLINE void F(give)(const pf_batch *b, const NUM *z, uint32_t n, uint32_t i, NUM *v, NUM *V, NUM *xi)
 {
     const double *r = b->arm;
 
@@ -69,13 +72,13 @@ TERM(nitsche, PF_SURFACE, IN(u, grad_u, p, U, omega, mu), OUT(v, grad_v, q, V, x
 
 #if PF_ONCE
 /* What moves the slip: by component c of u, of U (the opposite) and of omega, -d (omega x r)_a / d omega_c */
-static inline void moves(const pf_batch *b, uint32_t c, double by, double *dw)
+INLINE void moves(const pf_batch *b, uint32_t c, double by, double *dw)
 {
     EACH (a)
         dw[a] = a == c ? by : 0;
 }
 
-static inline void turns(const pf_batch *b, uint32_t c, uint32_t i, double *dw)
+INLINE void turns(const pf_batch *b, uint32_t c, uint32_t i, double *dw)
 {
     const double *r = b->arm;
 
@@ -87,8 +90,8 @@ static inline void turns(const pf_batch *b, uint32_t c, uint32_t i, double *dw)
 }
 
 /* A column of the rows of nitsche, n of them a block, by what moves the slip by dw */
-static inline void nitsche_column(const pf_batch *b, const double *dw, double mu, double gamma, uint32_t n,
-                                  uint32_t i, double *dv, double *dgrad_v, double *dq, double *dV, double *dxi)
+INLINE void nitsche_column(const pf_batch *b, const double *dw, double mu, double gamma, uint32_t n, uint32_t i,
+                           double *dv, double *dgrad_v, double *dq, double *dV, double *dxi)
 {
     double z[3] = {0}, through = 0;
 
@@ -103,8 +106,8 @@ static inline void nitsche_column(const pf_batch *b, const double *dw, double mu
 }
 
 /* A column of the rows of inflow, e = -beta rho where w . n < 0, else 0 */
-static inline void inflow_column(const pf_batch *b, const double *w, const double *dw, double e, uint32_t n,
-                                 uint32_t i, double *dv, double *dV, double *dxi)
+INLINE void inflow_column(const pf_batch *b, const double *w, const double *dw, double e, uint32_t n, uint32_t i,
+                          double *dv, double *dV, double *dxi)
 {
     double z[3] = {0}, inward = 0, more = 0;
 
@@ -126,10 +129,11 @@ JACOBIAN(nitsche, IN(u, grad_u, p, U, omega, mu), PARAMS(NITSCHE_KEYS),
                 BLOCK(xi, omega), BLOCK(xi, mu)))
 {
     const double *n = b->normal;
-    double w[3], dw[3] = {0};
 
     EACH (c)
         LANES (i) {
+            double dw[3];
+
             moves(b, c, 1, dw);
             nitsche_column(b, dw, mu[i], gamma, DIM, i, dv_du[0][c], dgrad_v_du[0][0][c], dq_du[c], dV_du[0][c],
                            dxi_du[0][c]);
@@ -139,6 +143,8 @@ JACOBIAN(nitsche, IN(u, grad_u, p, U, omega, mu), PARAMS(NITSCHE_KEYS),
         }
     EACH_SPIN (c)
         LANES (i) {
+            double dw[3];
+
             turns(b, c, i, dw);
             nitsche_column(b, dw, mu[i], gamma, PF_SPINS, i, dv_domega[0][c], dgrad_v_domega[0][0][c], dq_domega[c],
                            dV_domega[0][c], dxi_domega[0][c]);
@@ -153,7 +159,7 @@ JACOBIAN(nitsche, IN(u, grad_u, p, U, omega, mu), PARAMS(NITSCHE_KEYS),
                 give_real(b, z, DIM * DIM, i, dv_dgrad_u[0][c][k], dV_dgrad_u[0][c][k], dxi_dgrad_u[0][c][k]);
             }
     LANES (i) {
-        double by_p[3] = {0}, by_mu[3] = {0};
+        double w[3], by_p[3] = {0}, by_mu[3] = {0};
 
         slip_real(b, u[0], U[0], omega[0], i, w);
         EACH (a) {
