@@ -336,8 +336,8 @@ static void destroy(void *self)
 
 static const char *const orderings[] = {"metis", "amd", NULL};
 static const pf_param params[] = {
-    {"ordering", "1", "by which the unknowns are eliminated: nested dissection, or least degree, with more fill",
-     PF_T_CHOICE, 0, offsetof(options, ordering), .choice = orderings},
+    {"ordering", "1", "by which the unknowns are eliminated: nested dissection, or least degree", PF_T_CHOICE, 0,
+     offsetof(options, ordering), .choice = orderings},
     PF_NUMBER(options, pivot, "1", "least share of the largest entry of its column that a diagonal pivot has",
               .dflt = UMFPACK_DEFAULT_SYM_PIVOT_TOLERANCE, .min = 0, .max = 1),
 };
