@@ -54,11 +54,10 @@ static int new_values(trials *c, systems *q, error *err)
 {
     const char *what = "set up again with other values";
     void *self;
-    int ignores, status = trial_begin(c, &self, &q->first);
+    int ignores, ended = 0, status = trial_begin(c, &self, &q->first);
 
-    if (status)
-        return trial_failed(c, what, status), 0;
-    status = ignores_values(c, self, q, &ignores);
+    if (!status)
+        status = ignores_values(c, self, q, &ignores);
     if (status)
         trial_failed(c, what, status);
     else if (ignores)
@@ -67,9 +66,9 @@ static int new_values(trials *c, systems *q, error *err)
                    "before; the new ones are ignored",
                    what);
     else
-        status = trial_check(c, self, &q->other, what, &q->first, NULL, err);
+        ended = trial_check(c, self, &q->other, what, &q->first, NULL, err);
     trial_drop(c, self);
-    return *err->text ? status : 0;
+    return ended;
 }
 
 static void check_product(trials *c, void *self, const trial *t, const trial *old, const char *when, systems *q)
@@ -91,33 +90,40 @@ static void check_product(trials *c, void *self, const trial *t, const trial *ol
                    off_old <= PRODUCT ? "; it is the product with the matrix before" : "");
 }
 
-static int update(trials *c, systems *q, error *err)
+/* What was set up stays, for a matrix that is near; then it is set up again. */
+static int update(trials *c, void *self, systems *q, error *err)
+{
+    int status = trial_update(c, self, &q->near_);
+
+    if (status)
+        return trial_failed(c, "update", status), 0;
+    if (trial_multiplies(c))
+        check_product(c, self, &q->near_, &q->first, "update", q);
+    if (c->approximate)
+        TRY(trial_check(c, self, &q->near_, "updated, with what was set up before", NULL, NULL, err));
+    status = trial_setup(c, self, &q->first);
+    if (status)
+        return trial_failed(c, "set up after an update", status), 0;
+    return trial_check(c, self, &q->first, "set up after an update", &q->near_, NULL, err);
+}
+
+/* What a solver may have or not. */
+static int optional_functions(trials *c, systems *q, error *err)
 {
     void *self;
-    int status;
+    int ended = 0, status;
 
     if (!trial_updates(c) && !trial_multiplies(c))
         return 0;
     status = trial_begin(c, &self, &q->first);
     if (status)
-        return trial_failed(c, "multiply", status), 0;
+        return trial_failed(c, "set up once more", status), 0;
     if (trial_multiplies(c))
         check_product(c, self, &q->first, NULL, "setup", q);
-    if (trial_updates(c)) {
-        status = trial_update(c, self, &q->near_);
-        if (status)
-            trial_failed(c, "update", status);
-        else if (trial_multiplies(c))
-            check_product(c, self, &q->near_, &q->first, "update", q);
-        if (!status && c->approximate)
-            status = trial_check(c, self, &q->near_, "updated, with what was set up before", NULL, NULL, err);
-        if (!status)
-            status = trial_setup(c, self, &q->first);
-        if (!status)
-            status = trial_check(c, self, &q->first, "set up after an update", &q->near_, NULL, err);
-    }
+    if (trial_updates(c))
+        ended = update(c, self, q, err);
     trial_drop(c, self);
-    return *err->text ? status : 0;
+    return ended;
 }
 
 /* Each with its matrix; what the first answers is not to change by the second. */
@@ -247,7 +253,7 @@ static int singular(trials *c, systems *q)
 static int live(trials *c, systems *q, error *err)
 {
     TRY(new_values(c, q, err));
-    TRY(update(c, q, err));
+    TRY(optional_functions(c, q, err));
     TRY(two_at_once(c, q, err));
     TRY(other_pattern(c, q, err));
     TRY(made_again(c, q, err));
