@@ -142,10 +142,25 @@ static int print_plugin(const term_plugin *p, const char *only, error *err)
     return 0;
 }
 
+static void print_solver(const pf_solver *s)
+{
+    const int has_keys = s->size >= offsetof(pf_solver, configure) + sizeof s->configure && s->param;
+
+    printf("%s %s: linear solver: %s\n", s->name, s->version, s->doc);
+    for (uint32_t i = 0; has_keys && i < s->n_param; i++) {
+        pf_param q = {0};
+
+        memcpy(&q, (const char *)s->param + (size_t)i * s->param_size,
+               s->param_size < sizeof q ? s->param_size : sizeof q);
+        print_params(&(pf_term){.n_param = 1, .param = &q});
+    }
+}
+
 int cli_describe(const cli *o, error *err)
 {
     static registry r;
     const term_plugin *p;
+    const pf_solver *solver;
     char name[128];
     const char *dot;
 
@@ -161,6 +176,11 @@ int cli_describe(const cli *o, error *err)
         TRY(registry_load(&r, o->operand[0], &f, err));
         if (f->plugin.path)
             TRY(print_plugin(&f->plugin, NULL, err));
+        else if (f->solver)
+            print_solver(f->solver);
+    } else if (strncmp(o->operand[0], "solver_", 7) == 0) {
+        TRY(registry_solver(&r, o->operand[0], &solver, err));
+        print_solver(solver);
     } else {
         dot = strchr(o->operand[0], '.');
         snprintf(name, sizeof name, "%.*s", dot ? (int)(dot - o->operand[0]) : 127, o->operand[0]);
