@@ -38,10 +38,15 @@ void describe_slot(text *t, const pf_slot *s);
 /* Flags in words, each after `before`. */
 void describe_flags(text *t, const pf_term *term, const char *before);
 
+/* --- describe_find.c --- */
+
+/* The file that is meant: a path, the name of a plugin of any kind, or PLUGIN.TERM. */
+int describe_find(registry *r, const char *operand, const term_file **file, const char **term, error *err);
+
+/* --- describe_markdown.c --- */
+
 /* describe --markdown NAME on stdout; with --all into the folder, one file for each plugin of the first folder that
  * is looked in. */
 int describe_markdown(const cli *o, registry *r, error *err);
-/* The file that is meant: a path, the name of a plugin of any kind, or PLUGIN.TERM: *term.  */
-int describe_find(registry *r, const char *operand, const term_file **file, const char **term, error *err);
 
 #endif
