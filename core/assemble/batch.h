@@ -46,6 +46,8 @@ typedef struct workspace {
     double (*power)[POWERS];                  /* [assembly.n_use] */
     double *kept;                             /* [VALUE_MAX][n_q] room, where there is memory */
     void *scratch;
+    uint8_t *mask; /* [8 n_q] 1: the term at hand acts there; read only if ... */
+    int masked;    /* ... it does not act everywhere                          */
     term_report report;
     int64_t failed_batch;
     arena memory;
@@ -134,10 +136,6 @@ int body_data_room(size_t n_q, size_t dim, workspace *w, error *err);
 void body_data_take(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
                     workspace *w);
 void body_data_show(const assembly_class *c, const workspace *w, pf_batch *b);
-/* Which lanes are pairs within a term's reach: in[8], 1 or 0; how many are (reach.c). */
-int reach_of(const assembly *a, const assembly_class *c, const term_use *use, const workspace *w, int *in);
-/* Zeroes lanes that are not in, of n numbers. */
-void reach_mask(const int *in, double *v, size_t n);
 /* Distances from walls at all points of a class; once for its items (walls.c). */
 int walls_update(const assembly *a, assembly_class *c, error *err);
 /* Places of the nodes of the cells of a batch, to w->x_node. */
@@ -189,12 +187,12 @@ void kept_along_cell(const assembly *a, const assembly_class *c, const assembly_
                      double *at);
 void kept_nearest(const assembly *a, const assembly_class *c, int64_t item, const uint8_t *counts, int n_comp,
                   const double *v, double *at);
-/* inside.c.  Whether a term acts at any point of the batch; of n rows [ld] what is left where it does not: zero. */
-int inside_any(const assembly_class *c, const plan_use *p, const workspace *w);
-void inside_mask(const assembly_class *c, const plan_use *p, const workspace *w, double *rows, int n);
-/* The residual of a term at the points of a batch, zero outside of where it acts. */
-int inside_residual(const assembly_class *c, const plan_use *p, const pf_batch *b, const double *const *in,
-                    double *const *out, const workspace *w);
+/* mask.c.  Finds the points of the batch on which a term acts; 0: on none.  Then, of n rows [ld] and of the
+ * residual, what is left elsewhere: zero. */
+int mask_take(const assembly *a, const assembly_class *c, const plan_use *p, workspace *w);
+void mask_rows(const workspace *w, double *rows, size_t n, size_t ld);
+int mask_residual(const pf_term *t, const pf_batch *b, const double *const *in, double *const *out,
+                  const workspace *w);
 /* Whether any term of the class takes part in this state. */
 int evaluate_any(const assembly *a, const assembly_class *c, const assembly_state *s);
 int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,

@@ -176,7 +176,7 @@ static void add_chained(const assembly_class *c, const assembly_state *s, const 
 }
 
 static int add_jacobian(const assembly_class *c, const assembly_state *s, const plan_use *p, const pf_batch *b,
-                        const double *const *in, const int *within, int dim, int diagnose, workspace *w)
+                        const double *const *in, int dim, int diagnose, workspace *w)
 {
     const pf_term *t = p->use->term;
     double *jac[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
@@ -187,10 +187,7 @@ static int add_jacobian(const assembly_class *c, const assembly_state *s, const 
     place_unwanted(c, p, dim, ld, at + used, jac, 0);
     status = term_jacobian(t, p->use->how, b, in, jac, w->room);
     place_unwanted(c, p, dim, ld, at + used, jac, 1);
-    if (!status && p->inside >= 0) /* blocks lie one after the other */
-        inside_mask(c, p, w, at, (int)(used / ld));
-    if (within)
-        reach_mask(within, at, used);
+    mask_rows(w, at, used / ld, ld); /* blocks lie one after the other */
     if (!status && diagnose && find_nan_derivative(t, b, jac, &w->report))
         return PF_FAIL;
     for (uint32_t o = 0; o < t->n_out && !status; o++)
@@ -294,7 +291,7 @@ int evaluate_term(const assembly_class *c, const plan_use *p, int64_t batch, pf_
     w->report = (term_report){.plugin = p->use->plugin->d.name, .term = t->name};
     process_enter(w->report.plugin, t->name, "residual", c->cell[c->batch[batch]]);
     TRY(properties_fit(c, p, b, w));
-    return inside_residual(c, p, b, in, out, w);
+    return mask_residual(t, b, in, out, w);
 }
 
 int evaluate_end(int status, workspace *w)
@@ -309,22 +306,16 @@ int evaluate_end(int status, workspace *w)
 }
 
 /* Residual and, if asked for, derivatives of one term, added to what the others gave. */
-static int add_term(const assembly *a, const assembly_class *c, const assembly_state *s, int64_t batch,
-                    const plan_use *p, int with_matrix, int diagnose, pf_batch *b, workspace *w)
+static int add_term(const assembly_class *c, const assembly_state *s, int64_t batch, const plan_use *p,
+                    int with_matrix, int diagnose, pf_batch *b, workspace *w)
 {
     const pf_term *t = p->use->term;
     const double *in[TERM_MAX_SLOTS];
     double *out[TERM_MAX_SLOTS];
-    int dim = (int)b->dim, within[PF_LANES], n_within = reach_of(a, c, p->use, w, within);
-    int status, masked = n_within < (int)PF_LANES;
+    int dim = (int)b->dim, status = evaluate_term(c, p, batch, b, in, out, w);
 
-    if (n_within == 0)
-        return 0;
-    status = evaluate_term(c, p, batch, b, in, out, w);
     if (!status && s->watch)
         s->watch->look(s->watch->ctx, p->use, b, in);
-    for (uint32_t o = 0; masked && o < t->n_out; o++)
-        reach_mask(within, out[o], (size_t)term_components(t->out[o].shape, dim) * b->ld);
     if (!status && diagnose && evaluate_find_nan(t, b, out, &w->report))
         status = PF_FAIL;
     if (!status) {
@@ -335,7 +326,7 @@ static int add_term(const assembly *a, const assembly_class *c, const assembly_s
     if (!status) {
         process_enter(w->report.plugin, t->name, "Jacobian", c->cell[c->batch[batch]]);
         if (with_matrix)
-            status = add_jacobian(c, s, p, b, in, masked ? within : NULL, dim, diagnose, w);
+            status = add_jacobian(c, s, p, b, in, dim, diagnose, w);
     }
     return evaluate_end(status, w);
 }
@@ -356,8 +347,8 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
     for (int u = 0; u < c->n_use; u++) {
         const plan_use *p = &c->use[u];
 
-        if (p->equations && strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)) && inside_any(c, p, w))
-            TRY(add_term(a, c, s, batch, p, with_matrix, diagnose, &b, w));
+        if (p->equations && strength(s, p) != 0 && (!s->only || (kinds(a, p) & s->only)) && mask_take(a, c, p, w))
+            TRY(add_term(c, s, batch, p, with_matrix, diagnose, &b, w));
     }
     return 0;
 }

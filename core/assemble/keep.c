@@ -9,15 +9,14 @@
 #include <string.h>
 
 /* Outside of where a term acts memory stays what it was. */
-static void leave_outside(const assembly_class *c, const plan_use *p, const workspace *w, uint32_t o, int n_comp,
+static void leave_outside(const assembly_class *c, const plan_use *p, const workspace *w, uint32_t o, size_t n_comp,
                           double *out)
 {
     const size_t ld = (size_t)c->n_q * PF_LANES;
     const double *before = (const double *)(w->in + c->input[p->kept[o]].at * (size_t)c->n_q);
-    const double *in = p->inside < 0 ? NULL : (const double *)(w->in + c->input[p->inside].at * (size_t)c->n_q);
 
-    for (size_t i = 0; in && i < (size_t)n_comp * ld; i++)
-        out[i] = in[i % ld] > 0 ? out[i] : before[i];
+    for (size_t i = 0; w->masked && i < n_comp * ld; i++)
+        out[i] = w->mask[i % ld] ? out[i] : before[i];
 }
 
 /* One output at the points of a batch into the memory. */
@@ -58,7 +57,7 @@ static int keep_term(const assembly *a, const assembly_class *c, const assembly_
         if (p->kept[o] >= 0) {
             int f = c->input[p->kept[o]].kept;
 
-            leave_outside(c, p, w, o, a->space->kept.field[f].n_comp, out[o]);
+            leave_outside(c, p, w, o, (size_t)a->space->kept.field[f].n_comp, out[o]);
             store(a, c, s, batch, f, (const v8 *)out[o], w, kept);
         }
     return evaluate_end(status, w);
@@ -88,7 +87,7 @@ static int keep_batch(const assembly *a, const assembly_class *c, const assembly
     inputs_values(a, c, s, batch, w);
     TRY(properties_evaluate(c, batch, 0, 1, &b, w));
     for (int u = 0; u < c->n_use; u++)
-        if (keeps(&c->use[u]) && inside_any(c, &c->use[u], w))
+        if (keeps(&c->use[u]) && mask_take(a, c, &c->use[u], w))
             TRY(keep_term(a, c, s, batch, &c->use[u], &b, w, kept));
     return 0;
 }

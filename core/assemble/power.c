@@ -61,12 +61,12 @@ int power_add(const assembly_class *c, const assembly_state *s, int64_t batch, c
         known &= moved[k] != NULL;
     }
     if (rates) {
-        TRY(inside_residual(c, p, b, still, out, w));
+        TRY(mask_residual(t, b, still, out, w));
         rest = output_power(c, batch, p, (int)b->dim, (const double *const *)out, w);
         kinetic = NAN;
     }
     if (rates && known) {
-        TRY(inside_residual(c, p, b, moved, out, w));
+        TRY(mask_residual(t, b, moved, out, w));
         kinetic = 0.5 * (output_power(c, batch, p, (int)b->dim, (const double *const *)out, w) - rest);
     }
     w->power[p->number][POWER_ALL] += factor * all;

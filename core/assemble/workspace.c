@@ -122,6 +122,7 @@ int workspace_create(const assembly *a, workspace *w, error *err)
     if (a->space->kept.n)
         ARENA_NEW(memory, w->kept, (int64_t)s.q * VALUE_MAX, err);
     ARENA_NEW(memory, w->mat, s.entries * s.width + 1, err);
+    ARENA_NEW(memory, w->mask, s.q * PF_LANES, err);
     w->scratch = arena_alloc(memory, s.scratch + 1, 1);
     return w->scratch ? 0 : error_memory(err, "scratch", (double)s.scratch);
 }

@@ -11,6 +11,7 @@
 #define PF_SHAPE_T_body SCALAR
 #define GIVEN           .flags = PF_REQUIRED | PF_SHARED, PF_NOT_NEGATIVE
 #define CONDUCTIVITY    REAL(conductivity, "W/(m K)", "thermal conductivity", GIVEN)
+#define K               PROPERTY_AS(k, conductivity, "W/(m K)", .min = 0, .max = 1e30)
 #define GAMMA           REAL(gamma, "1", "penalty of a jump at surfaces, in k/h", .dflt = 20, PF_NOT_NEGATIVE)
 #define BODY_CONDUCTIVITY                                                                                          \
     REAL(body_conductivity, "W/(m K)", "thermal conductivity of the bodies", .flags = PF_REQUIRED, PF_NOT_NEGATIVE)
@@ -19,8 +20,7 @@
 
 /* What fluid with this slope of T loses to a surface that is colder by w, -k dT/dn + gamma k/h w at lane i, and
  * what grad s gets, k n w: Nitsche's method with the skew sign */
-static inline NUM F(loss)(const pf_batch *b, const NUM *grad_T, NUM w, double k, double gamma, uint32_t i,
-                          NUM *grad_s)
+static inline NUM F(loss)(const pf_batch *b, const NUM *grad_T, NUM w, NUM k, double gamma, uint32_t i, NUM *grad_s)
 {
     NUM flux = gamma * k / b->h[i] * w;
 
@@ -32,27 +32,27 @@ static inline NUM F(loss)(const pf_batch *b, const NUM *grad_T, NUM w, double k,
 }
 
 /* -k dT/dn s + k ds/dn (T - T_b) + gamma k/h (T - T_b) s: the surface holds the temperature T_b */
-TERM(surface_temperature, PF_SURFACE, IN(T, grad_T, DATA(temperature, SCALAR)), OUT(s, grad_s),
+TERM(surface_temperature, PF_SURFACE, IN(T, grad_T, DATA(temperature, SCALAR), K), OUT(s, grad_s),
      PARAMS(CONDUCTIVITY, GAMMA), .flags = PF_LINEAR | PF_OPTIONAL,
      .doc = "-k\\,\\partial_nT\\,s+k\\,\\partial_ns\\,w+\\gamma\\frac kh\\,w\\,s,\\ w=T-T_b",
      .cite = "Freund and Stenberg 1995 (skew form of Nitsche's method)",
      PF_EXAMPLES({"k = 2, h = 0.1, n = (0.6, -0.8), grad T = (1, 2), 2 warmer than the surface: 20*2/0.1*2 + 2", 2,
-                  (double[]){2, 20}, (double[]){3, 1, 2, 1}, (double[]){802, 2.4, -3.2}, 1e-14}))
+                  (double[]){0, 20}, (double[]){3, 1, 2, 1, 2}, (double[]){802, 2.4, -3.2}, 1e-14}))
 {
     LANES (i)
-        s[i] = F(loss)(b, grad_T[0], T[i] - temperature[i], conductivity, gamma, i, grad_s[0]);
+        s[i] = F(loss)(b, grad_T[0], T[i] - temperature[i], k[i], gamma, i, grad_s[0]);
 }
 
 /* The same with the temperature of the body, which gets what the fluid loses */
-TERM(interface, PF_SURFACE, IN(T, grad_T, VALUE(T_body)), OUT(s, grad_s, TEST(T_body, s_b)),
+TERM(interface, PF_SURFACE, IN(T, grad_T, VALUE(T_body), K), OUT(s, grad_s, TEST(T_body, s_b)),
      PARAMS(CONDUCTIVITY, GAMMA), .flags = PF_LINEAR,
      .doc = "q\\,(s-s_b)+k\\,\\partial_ns\\,(T-T_b),\\ q=-k\\,\\partial_nT+\\gamma\\frac kh(T-T_b)",
      .cite = "Freund and Stenberg 1995 (skew form of Nitsche's method), with the flux of one side",
      PF_EXAMPLES({"k = 2, h = 0.1, n = (0.6, -0.8), grad T = (1, 2), 2 warmer than the body: 20*2/0.1*2 + 2", 2,
-                  (double[]){2, 20}, (double[]){3, 1, 2, 1}, (double[]){802, 2.4, -3.2, -802}, 1e-14}))
+                  (double[]){0, 20}, (double[]){3, 1, 2, 1, 2}, (double[]){802, 2.4, -3.2, -802}, 1e-14}))
 {
     LANES (i) {
-        s[i] = F(loss)(b, grad_T[0], T[i] - T_body[i], conductivity, gamma, i, grad_s[0]);
+        s[i] = F(loss)(b, grad_T[0], T[i] - T_body[i], k[i], gamma, i, grad_s[0]);
         s_b[i] = -s[i];
     }
 }
