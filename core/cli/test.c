@@ -81,6 +81,19 @@ static int load(const cli *o, watched *w, registry *r, term_file **file, const t
     return status;
 }
 
+/* A case looks for a plugin by its name, so a file of another name is not found, or refused. */
+static void note_name(const term_plugin *p)
+{
+    const char *slash = strrchr(p->path, '/'), *file = slash ? slash + 1 : p->path;
+    const size_t n = strlen(p->d.name);
+
+    if (strncmp(file, p->d.name, n) != 0 || strcmp(file + n, ".so") != 0)
+        fprintf(stderr,
+                "note: the file is %s and the plugin is called \"%s\": a case finds it with --plugin FILE only; "
+                "name the file %s.so\n",
+                file, p->d.name, p->d.name);
+}
+
 static int finish(const cli *o, const selftest *s, const char *subject, error *err)
 {
     if (!o->json)
@@ -119,6 +132,7 @@ static int test(watched *w, void *arg, error *err)
     }
     if (!o->json)
         printf("%s %s (%s)\n", p->d.name, p->d.version, p->path);
+    note_name(p);
     TRY(selftest_run(&s, p, only, err));
     return finish(o, &s, p->d.name, err);
 }
