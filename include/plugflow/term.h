@@ -52,7 +52,7 @@
  *                        of real and of complex numbers
  * creal(x)               to compare: if (creal(u) < 0)
  *
- * Lists (slots of IN, of OUT, keys, blocks, fields, terms) have up to 32 entries. */
+ * A term has up to 12 slots IN, 12 OUT and 32 keys, a plugin 16 fields; other lists have up to 32 entries. */
 /* clang-format on */
 #ifndef PLUGFLOW_TERM_H
 #define PLUGFLOW_TERM_H
