@@ -86,7 +86,7 @@ static void a_solver_is_found_on_the_command_line(void **state)
         plugflow("run tests/abi/kit/solved.lua --plugin \"$PLUGFLOW_BUILD/tests/abi/kit/solver_declines.so\" "
                  "--out '%s/s'",
                  scratch()),
-        2, "the test was here");
+        3, "the test was here");
     assert_ran(plugflow("run tests/abi/kit/solved.lua --out '%s/s'", scratch()), 2,
                "no plugin solver_declines.so was found");
 }
