@@ -60,9 +60,10 @@ static void print_slots(const char *title, const pf_slot *s, uint32_t n, int by_
                                         "gradient of a tensor"};
 
     for (uint32_t i = 0; i < n; i++)
-        printf("      %-7s %-22s %s%s%s, %s%s%s%s%s\n", i ? "" : title, s[i].name, term_eval_name(s[i].eval),
+        printf("      %-7s %-22s %s%s%s, %s%s%s%s%s%s\n", i ? "" : title, s[i].name, term_eval_name(s[i].eval),
                s[i].field ? " of " : "", s[i].field ? s[i].field : "", shape[s[i].shape], s[i].unit ? ", " : "",
-               s[i].unit ? s[i].unit : "", s[i].doc ? ": " : "", s[i].doc ? s[i].doc : "");
+               s[i].unit ? s[i].unit : "", s[i].doc ? ": " : "", s[i].doc ? s[i].doc : "",
+               s[i].flags & PF_REQUIRED ? "; required" : "");
     for (uint32_t i = 0; by_boundary && i < n; i++)
         if (s[i].eval == PF_DATA)
             printf("      in a case: boundary \"...\" { %s = ... }\n", s[i].name);
@@ -108,14 +109,15 @@ static void print_term(const term_plugin *p, const pf_term *t)
                                              "bodies, once each",
                                              "near pairs of bodies or body and wall"};
 
-    printf("  %s.%s%s\n      weak    %s\n      source  %s\n      points  %s; Jacobian %s%s%s%s\n", p->d.name,
+    printf("  %s.%s%s\n      weak    %s\n      source  %s\n      points  %s; Jacobian %s%s%s%s%s\n", p->d.name,
            t->name, t->flags & PF_OPTIONAL ? " (only if its own line switches it on)" : "", t->doc, t->cite,
            point_name[t->where],
            t->jacobian     ? "by hand"
            : t->residual_c ? "by complex step"
                            : "by differences",
            t->flags & PF_LINEAR ? "; linear" : "", t->flags & PF_CONTINUATION ? "; faded in by continuation" : "",
-           t->flags & PF_METRIC ? "; reads the metric of the element" : "");
+           t->flags & PF_METRIC ? "; reads the metric of the element" : "",
+           t->flags & PF_FLUID_FORCE ? "; what it gives a body is the fluid's force" : "");
     print_slots("in", t->in, t->n_in, (t->flags & PF_BY_BOUNDARY) != 0);
     print_slots("out", t->out, t->n_out, 0);
     print_params(t);

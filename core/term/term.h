@@ -124,6 +124,7 @@ typedef struct term_use {
     const struct term_use
         *law[TERM_MAX_SLOTS]; /* for PF_PROPERTY inputs: who publishes it; NULL: see term_number */
     uint32_t given, missing;  /* bit k: parameter k stands in the case; it had to, and does not */
+    uint32_t no_data;         /* bit k: the data of input k stand nowhere in the case and are 0 */
 } term_use;
 
 /* The term's own parameter of the name and shape of a PF_PROPERTY input, which is its value where nobody publishes
