@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Whether the keys that a plugin's terms ask for are keys of a case: none that every line has already, and one
- * line, which serves all terms of the plugin, can mean only one thing by a key. */
+ * line, which serves all terms of the plugin, can mean only one thing by a key.  (Optional terms have lines of
+ * their own.) */
 #include "term/check.h"
 
 #include <string.h>
@@ -36,8 +37,7 @@ static int check_general(const pf_term *t, const check_subject *s, error *err)
     return 0;
 }
 
-/* What two parameters of one name differ in, or NULL.  Ranges may: each term has its own. */
-static const char *difference(const pf_param *a, const pf_param *b)
+const char *term_key_differs(const pf_param *a, const pf_param *b)
 {
     if (a->type != b->type)
         return "type";
@@ -51,7 +51,7 @@ static int check_pair(const pf_term *a, const pf_term *b, const check_subject *s
     for (uint32_t i = 0; i < a->n_param; i++)
         for (uint32_t k = 0; k < b->n_param; k++) {
             const pf_param *p = &a->param[i], *q = &b->param[k];
-            const char *what = strcmp(p->name, q->name) == 0 ? difference(p, q) : NULL;
+            const char *what = strcmp(p->name, q->name) == 0 ? term_key_differs(p, q) : NULL;
 
             if (what)
                 return check_wrong(err, s,
@@ -69,7 +69,8 @@ int check_keys(const term_plugin *p, const char *path, error *err)
 
         TRY(check_general(&p->term[i], &s, err));
         for (uint32_t k = 0; k < i; k++)
-            TRY(check_pair(&p->term[k], &p->term[i], &s, err));
+            if (!((p->term[k].flags | p->term[i].flags) & PF_OPTIONAL))
+                TRY(check_pair(&p->term[k], &p->term[i], &s, err));
     }
     return 0;
 }

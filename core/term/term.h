@@ -85,6 +85,10 @@ const char *term_eval_name(uint32_t eval);
 /* The field that the plugin declares under this name, or NULL. */
 const pf_field *term_field(const term_plugin *p, const char *name);
 
+/* What two parameters of one name differ in, "unit", "type" or "default", or NULL.  Ranges may: each term has its
+ * own. */
+const char *term_key_differs(const pf_param *a, const pf_param *b);
+
 /* Fills the parameters of a term with their defaults. */
 void term_defaults(const pf_term *t, void *params);
 
