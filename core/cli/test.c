@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * plugflow test PLUGIN|TERM|FILE.so: the blocks of a plugin in isolation.  Runs in a child, so
+ * plugflow test PLUGIN|TERM|FILE.so: the blocks of a plugin in isolation, or a linear solver on systems of known
+ * solution.  Runs in a child, so
  * that a plugin that crashes is reported like one that is wrong. */
 #include "cli/test.h"
 #include "cli/watched.h"
 
 #include "base/text.h"
+#include "solve/trial.h"
 #include "term/surroundings.h"
 
 #include <stdio.h>
@@ -40,13 +42,16 @@ static void on_call(void *ctx, const char *plugin, const char *term, const char 
     test_run *t = ctx;
     char subject[200];
 
-    snprintf(subject, sizeof subject, "term %.80s.%.80s", plugin, term);
+    if (term)
+        snprintf(subject, sizeof subject, "term %.80s.%.80s", plugin, term);
+    else
+        snprintf(subject, sizeof subject, "%.80s", plugin);
     watched_enter(t->w, subject, what);
 }
 
 /* Loads the plugin that the operand means. */
-static int load(const cli *o, watched *w, registry *r, term_file **file, const term_plugin **p, const char **only,
-                error *err)
+static int load(const cli *o, watched *w, registry *r, term_file **file, const term_plugin **p,
+                const pf_solver **solver, const char **only, error *err)
 {
     const char *name = o->operand[0], *dot = strchr(name, '.');
     const size_t n = strlen(name);
@@ -54,13 +59,16 @@ static int load(const cli *o, watched *w, registry *r, term_file **file, const t
     surroundings before;
     int status;
 
-    *file = NULL, *only = NULL;
+    *file = NULL, *only = NULL, *p = NULL, *solver = NULL;
     surroundings_take(&before);
     TRY(registry_create(r, o->plugin, o->n_plugin, err));
     watched_enter(w, name, "while it is loaded");
     if (n > 3 && strcmp(name + n - 3, ".so") == 0) {
         status = registry_load(r, name, file, err);
         *p = status ? NULL : &(*file)->plugin;
+        *solver = status ? NULL : (*file)->solver;
+    } else if (strncmp(name, "solver_", 7) == 0) {
+        status = registry_solver(r, name, solver, err);
     } else {
         snprintf(plugin, sizeof plugin, "%.*s", dot ? (int)(dot - name) : 127, name);
         *only = dot ? dot + 1 : NULL;
@@ -71,6 +79,19 @@ static int load(const cli *o, watched *w, registry *r, term_file **file, const t
         status = error_set(err, ERR_PLUGIN, "%s: loading it %s", name, why);
     surroundings_release(&before);
     return status;
+}
+
+/* A case looks for a plugin by its name, so a file of another name is not found, or refused. */
+static void note_name(const term_plugin *p)
+{
+    const char *slash = strrchr(p->path, '/'), *file = slash ? slash + 1 : p->path;
+    const size_t n = strlen(p->d.name);
+
+    if (strncmp(file, p->d.name, n) != 0 || strcmp(file + n, ".so") != 0)
+        fprintf(stderr,
+                "note: the file is %s and the plugin is called \"%s\": a case finds it with --plugin FILE only; "
+                "name the file %s.so\n",
+                file, p->d.name, p->d.name);
 }
 
 static int finish(const cli *o, const selftest *s, const char *subject, error *err)
@@ -89,6 +110,7 @@ static int test(watched *w, void *arg, error *err)
     test_run t = {o, w};
     selftest s = {.line = print_line, .enter = on_call, .ctx = &t};
     const term_plugin *p;
+    const pf_solver *solver;
     const char *only;
     term_file *f;
 
@@ -96,7 +118,13 @@ static int test(watched *w, void *arg, error *err)
         TRY(cli_test_case(o, &s, err));
         return finish(o, &s, o->case_path, err);
     }
-    TRY(load(o, w, &r, &f, &p, &only, err));
+    TRY(load(o, w, &r, &f, &p, &solver, &only, err));
+    if (solver) {
+        if (!o->json)
+            printf("%s %s: %s\n", solver->name, solver->version, solver->doc);
+        TRY(trial_run(&s, solver, err));
+        return finish(o, &s, solver->name, err);
+    }
     if (f && !f->plugin.path) {
         if (!o->json)
             printf("%s: a %s plugin; it loads\n", f->path, f->kind);
@@ -104,6 +132,7 @@ static int test(watched *w, void *arg, error *err)
     }
     if (!o->json)
         printf("%s %s (%s)\n", p->d.name, p->d.version, p->path);
+    note_name(p);
     TRY(selftest_run(&s, p, only, err));
     return finish(o, &s, p->d.name, err);
 }

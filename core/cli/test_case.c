@@ -98,6 +98,8 @@ static int evaluate(problem *p, case_test *c, error *err)
                              .x = x,
                              .dot = sys->step,
                              .old = x,
+                             .kept = p->state.kept,
+                             .fluid = (const double(*)[6])p->state.fluid,
                              .bodies = problem_points(p),
                              .watch = &watch};
         error ignored = {0};

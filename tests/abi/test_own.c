@@ -82,7 +82,7 @@ static void a_force_that_is_not_counted_is_doubted(void **state)
     assert_ran(r, 0, "ok");
     says_not(r, "warning");
     r = plugflow("describe %s/own.so", getenv("PLUGFLOW_BROKEN_DIR"));
-    assert_ran(r, 0, "; what it gives a body is the fluid's force", "dye_source", "dye that comes; required");
+    assert_ran(r, 0, "what the fluid does to the body", "dye that comes, 1/s; required");
 }
 
 static void a_field_without_a_tie_is_doubted(void **state)
