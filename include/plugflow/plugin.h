@@ -346,11 +346,28 @@ PF_EXPORT const pf_plugin *pf_plugin_entry(const pf_host *, char *err, size_t ne
     .term = PF_LIST(const pf_term *const, __VA_ARGS__), .n_term = PF_COUNT(const pf_term *, __VA_ARGS__)
 
 /* A parameter that is a real number: the key has the name of the struct's member; then default, range, flags. */
+#ifdef __cplusplus /* whose designators keep to the order of the members: flags, dflt, min, max */
+struct pf_number_rest {
+    uint32_t flags;
+    double dflt, min, max;
+};
+static inline pf_param pf_number(const char *name, const char *unit, const char *doc, size_t offset,
+                                 pf_number_rest rest)
+{
+    const pf_param p = {name,      unit,     doc,      PF_T_REAL, rest.flags, (uint32_t)offset,
+                        rest.dflt, rest.min, rest.max, NULL};
+
+    return p;
+}
+#define PF_NUMBER(STRUCT, MEMBER, UNIT, DOC, ...)                                                                  \
+    pf_number(#MEMBER, UNIT, DOC, offsetof(STRUCT, MEMBER), pf_number_rest{__VA_ARGS__})
+#else
 #define PF_NUMBER(STRUCT, MEMBER, UNIT, DOC, ...)                                                                  \
     {                                                                                                              \
         .name = #MEMBER, .unit = UNIT, .doc = DOC, .type = PF_T_REAL, .offset = offsetof(STRUCT, MEMBER),          \
         __VA_ARGS__                                                                                                \
     }
+#endif
 #define PF_NOT_NEGATIVE .min = 0, .max = 1e30
 
 /* The exported symbol of a plugin that needs nothing of its host at the start. */
