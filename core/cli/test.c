@@ -44,6 +44,22 @@ static void on_call(void *ctx, const char *plugin, const char *term, const char 
     watched_enter(t->w, subject, what);
 }
 
+/* A case finds a plugin by the name of its file. */
+static void check_name(selftest *s, const char *path, const char *name)
+{
+    const char *file = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
+    const size_t n = strlen(name);
+    char text[500];
+
+    if (strncmp(file, name, n) == 0 && strcmp(file + n, ".so") == 0)
+        return;
+    s->failed++;
+    snprintf(text, sizeof text,
+             "the file %.180s holds a plugin \"%.180s\": they must have the same name, by which a case finds it",
+             file, name);
+    s->line(s->ctx, 0, text);
+}
+
 /* Loads the plugin that the operand means. */
 static int load(const cli *o, watched *w, registry *r, term_file **file, const term_plugin **p, const char **only,
                 error *err)
@@ -104,6 +120,8 @@ static int test(watched *w, void *arg, error *err)
     }
     if (!o->json)
         printf("%s %s (%s)\n", p->d.name, p->d.version, p->path);
+    if (f)
+        check_name(&s, f->path, p->d.name);
     TRY(selftest_run(&s, p, only, err));
     return finish(o, &s, p->d.name, err);
 }

@@ -165,6 +165,11 @@ static int evaluate(run *r, error *err)
     return 0;
 }
 
+int showing_look(run *r, const assembly_state *at, error *err)
+{
+    return r->showing ? shown_evaluate(&r->showing->shown, *at, err) : 0;
+}
+
 /* Whether a term has nothing to say yet: it reads rates, and no step has been made. */
 static int is_early(const run *r, const term_use *u)
 {
