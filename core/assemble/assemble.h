@@ -86,6 +86,7 @@ typedef struct moving_frame {
     int (*at)(void *ctx, int64_t cell, const double *x, double *w, double *history);
     /* Where the point of this body (-1: of the fluid) that is at x now was at the end of the last step: the cell
      * and the place in it.  0: here.  BEFORE_BESIDE: x is not of the body (the fluid), what is beside it was there.
+     * NULL: memory is of this instant.
      */
     int (*before)(void *ctx, int64_t cell, const double *x, int body, located *then);
 } moving_frame;

@@ -146,8 +146,8 @@ int kept_update(const assembly *a, assembly_class *c, const assembly_state *s, e
     const moving_frame *f = s->frame;
     int64_t n = 0, n_comp = 0;
 
-    if (!f || !s->kept || !c->any_kept || c->where == PF_CELL || c->where == PF_FACET || c->where == PF_PARTICLE ||
-        c->where == PF_PAIR || c->kept_stamp == f->stamp)
+    if (!f || !f->before || !s->kept || !c->any_kept || c->where == PF_CELL || c->where == PF_FACET ||
+        c->where == PF_PARTICLE || c->where == PF_PAIR || c->kept_stamp == f->stamp)
         return 0;
     for (int i = 0; i < c->n_input; i++)
         n_comp += c->input[i].kept >= 0 ? c->input[i].n_comp : 0;
@@ -176,7 +176,7 @@ static const v8 *along_paths(const assembly_class *c, const assembly_state *s, i
 {
     const v8 *at;
 
-    if (!s->frame || c->kept_stamp != s->frame->stamp || c->kept_at[batch] < 0)
+    if (!s->frame || !s->frame->before || c->kept_stamp != s->frame->stamp || c->kept_at[batch] < 0)
         return NULL;
     at = c->kept + c->kept_at[batch];
     for (int i = 0; &c->input[i] != in; i++)

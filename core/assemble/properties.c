@@ -48,6 +48,12 @@ static int counts(const workspace *w, size_t lane)
     return ((const double *)w->w)[lane] != 0;
 }
 
+/* The same, and the term at hand acts there. */
+static int acts(const workspace *w, size_t lane)
+{
+    return counts(w, lane) && (!w->masked || w->mask[lane]);
+}
+
 static int report(const pf_batch *b, const term_use *law, int status, const char *property, const char *is,
                   double v, size_t lane, const char *expected, workspace *w)
 {
@@ -75,7 +81,7 @@ int properties_fit(const assembly_class *c, const plan_use *p, const pf_batch *b
         for (size_t i = 0; i < n; i++)
             out |= !(v[i] >= s->min && v[i] <= s->max);
         for (size_t i = 0; out && i < n; i++)
-            if (!(v[i] >= s->min && v[i] <= s->max) && counts(w, i % b->ld)) {
+            if (!(v[i] >= s->min && v[i] <= s->max) && acts(w, i % b->ld)) {
                 char expected[200];
 
                 snprintf(expected, sizeof expected, "; %s.%s takes it from %g to %g", p->use->plugin->d.name,

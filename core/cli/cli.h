@@ -24,6 +24,9 @@ typedef struct cli {
     double low, high;
     /* new */
     const char *fields, *on, *weak;
+    /* describe */
+    const char *all;
+    int markdown;
 } cli;
 
 int cli_run(const cli *c, error *err);

@@ -21,7 +21,7 @@ static const struct command {
     {"run", "CASE", "solve a case and write its results", cli_run, 1, 1},
     {"check", "CASE", "read, mesh and assemble once: unknowns, memory, cost; writes nothing", cli_check, 1, 1},
     {"plugins", "", "what is found, where, which version, what was refused and why", cli_plugins, 0, 0},
-    {"describe", "[TERM]", "weak form, parameters, slots, citation", cli_describe, 0, 1},
+    {"describe", "[PLUGIN|TERM]", "weak form, keys, slots, citation; --markdown: as a page", cli_describe, 0, 1},
     {"test", "PLUGIN|TERM|FILE.so", "every block of a plugin in isolation; --case CASE: of a case", cli_test, 0, 1},
     {"jacobian", "CASE", "derivatives on the real problem, per pair of blocks", cli_jacobian, 1, 1},
     {"new", "NAME", "a folder with a new plugin that runs: --fields, --on, --weak FORM", cli_new, 1, 1},
@@ -41,6 +41,7 @@ static const char options_text[] =
     "  --quiet              only warnings and errors on stderr\n"
     "  picture: --field NAME --component x|y|z|magnitude --range LOW,HIGH --slice z=0.5 --width PIXELS --arrows\n"
     "  new: --on cells|fluid|solid|facets|surface|bodies|pairs --fields u,T,NAME:scalar|vector:ORDER --weak FORM\n"
+    "  describe: --markdown; with --all DIR a page for each plugin of the first folder that is looked in\n"
     "exit codes: 0 ok, 2 usage, 3 case, 4 mesh, 5 plugin, 6 did not converge, 7 input/output, 8 memory, 128+n "
     "signal\n";
 
@@ -127,6 +128,10 @@ static int parse_option(int argc, char **argv, int *i, cli *c, error *err)
     } else if ((v = option(argc, argv, i, "--range", &bad))) {
         if (sscanf(v, "%lf,%lf", &c->low, &c->high) != 2 || !(c->low < c->high))
             return error_set(err, ERR_USAGE, "--range %s: expected LOW,HIGH", v);
+    } else if ((v = option(argc, argv, i, "--all", &bad))) {
+        c->all = v;
+    } else if (strcmp(here, "--markdown") == 0) {
+        c->markdown = 1;
     } else if (strcmp(here, "--json") == 0) {
         c->json = 1;
     } else if (strcmp(here, "--quiet") == 0 || strcmp(here, "-q") == 0) {

@@ -31,26 +31,60 @@ static void put(const char *s)
         return;
 }
 
+/* Which term some thread is in now: " (inside term gnf.stress, residual)", or nothing.  Read while it may change,
+ * so until two readings agree; the strings stay where they are. */
+static void put_place(void)
+{
+    for (int i = 0; i < PROCESS_MAX_THREADS; i++) {
+        const volatile breadcrumb *now = &process.thread[i].now;
+        const breadcrumb in = {now->plugin, now->term, now->phase, -1};
+
+        if (!in.plugin || !in.term || !in.phase || now->plugin != in.plugin || now->term != in.term ||
+            now->phase != in.phase)
+            continue;
+        put(" (inside term ");
+        put(in.plugin);
+        put(".");
+        put(in.term);
+        put(", ");
+        put(in.phase);
+        put(")");
+        return;
+    }
+}
+
 /* A thread that does nothing else.  Before there is anything to lose a signal ends the program at once; in a run
  * the first asks it to end after its step, the second ends it at once. What comes right after the first is still
- * the first: timeout(1) and batch systems send it to the process and to its group. */
+ * the first: timeout(1) and batch systems send it to the process and to its group.  A run that is still there after
+ * a while, in a long step or in a term that does not come back, says how to end it. */
 static void *take_signals(void *unused)
 {
     const sigset_t set = stop_signals();
-    const struct timespec at_once = {0}, a_moment = {.tv_nsec = 200000000};
+    const struct timespec at_once = {0}, a_moment = {.tv_nsec = 200000000}, a_while = {.tv_sec = 2};
     int number;
 
     (void)unused;
     sigwait(&set, &number);
     process.stop = number;
     if (!process.running) {
-        put("plugflow: stopped by a signal before the run began; nothing was written\n");
+        put("plugflow: stopped by a signal before the run began; nothing was written");
+        put_place();
+        put("\n");
         _exit(128 + number);
     }
     nanosleep(&a_moment, NULL);
     while (sigtimedwait(&set, NULL, &at_once) > 0)
         ;
-    sigwait(&set, &number);
+    number = sigtimedwait(&set, NULL, &a_while);
+    if (number < 0) {
+        put("plugflow: the run ends after this step");
+        put_place();
+        put("; another signal ends it at once\n");
+        sigwait(&set, &number);
+    }
+    put("plugflow: ended at once by a second signal");
+    put_place();
+    put("\n");
     _exit(128 + number);
 }
 

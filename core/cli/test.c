@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * plugflow test PLUGIN|TERM|FILE.so: the blocks of a plugin in isolation.  Runs in a child, so
+ * plugflow test PLUGIN|TERM|FILE.so: the blocks of a plugin in isolation, or a linear solver on systems of known
+ * solution.  Runs in a child, so
  * that a plugin that crashes is reported like one that is wrong. */
 #include "cli/test.h"
 #include "cli/watched.h"
 
 #include "base/text.h"
+#include "solve/trial.h"
 #include "term/surroundings.h"
 
 #include <stdio.h>
@@ -40,7 +42,10 @@ static void on_call(void *ctx, const char *plugin, const char *term, const char 
     test_run *t = ctx;
     char subject[200];
 
-    snprintf(subject, sizeof subject, "term %.80s.%.80s", plugin, term);
+    if (term)
+        snprintf(subject, sizeof subject, "term %.80s.%.80s", plugin, term);
+    else
+        snprintf(subject, sizeof subject, "%.80s", plugin);
     watched_enter(t->w, subject, what);
 }
 
@@ -61,8 +66,8 @@ static void check_name(selftest *s, const char *path, const char *name)
 }
 
 /* Loads the plugin that the operand means. */
-static int load(const cli *o, watched *w, registry *r, term_file **file, const term_plugin **p, const char **only,
-                error *err)
+static int load(const cli *o, watched *w, registry *r, term_file **file, const term_plugin **p,
+                const pf_solver **solver, const char **only, error *err)
 {
     const char *name = o->operand[0], *dot = strchr(name, '.');
     const size_t n = strlen(name);
@@ -70,13 +75,16 @@ static int load(const cli *o, watched *w, registry *r, term_file **file, const t
     surroundings before;
     int status;
 
-    *file = NULL, *only = NULL;
+    *file = NULL, *only = NULL, *p = NULL, *solver = NULL;
     surroundings_take(&before);
     TRY(registry_create(r, o->plugin, o->n_plugin, err));
     watched_enter(w, name, "while it is loaded");
     if (n > 3 && strcmp(name + n - 3, ".so") == 0) {
         status = registry_load(r, name, file, err);
         *p = status ? NULL : &(*file)->plugin;
+        *solver = status ? NULL : (*file)->solver;
+    } else if (strncmp(name, "solver_", 7) == 0) {
+        status = registry_solver(r, name, solver, err);
     } else {
         snprintf(plugin, sizeof plugin, "%.*s", dot ? (int)(dot - name) : 127, name);
         *only = dot ? dot + 1 : NULL;
@@ -105,6 +113,7 @@ static int test(watched *w, void *arg, error *err)
     test_run t = {o, w};
     selftest s = {.line = print_line, .enter = on_call, .ctx = &t};
     const term_plugin *p;
+    const pf_solver *solver;
     const char *only;
     term_file *f;
 
@@ -112,7 +121,13 @@ static int test(watched *w, void *arg, error *err)
         TRY(cli_test_case(o, &s, err));
         return finish(o, &s, o->case_path, err);
     }
-    TRY(load(o, w, &r, &f, &p, &only, err));
+    TRY(load(o, w, &r, &f, &p, &solver, &only, err));
+    if (solver) {
+        if (!o->json)
+            printf("%s %s: %s\n", solver->name, solver->version, solver->doc);
+        TRY(trial_run(&s, solver, err));
+        return finish(o, &s, solver->name, err);
+    }
     if (f && !f->plugin.path) {
         if (!o->json)
             printf("%s: a %s plugin; it loads\n", f->path, f->kind);

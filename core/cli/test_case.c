@@ -114,6 +114,7 @@ static int evaluate(run *r, case_test *c, error *err)
                              .dot = sys->step,
                              .old = x,
                              .kept = p->state.kept,
+                             .fluid = (const double(*)[6])p->state.fluid,
                              .bodies = problem_points(p),
                              .watch = &watch};
         error ignored = {0};

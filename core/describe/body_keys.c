@@ -206,9 +206,9 @@ int describe_motion(const description *d, int spin)
 
     for (int f = 0; f < d->fields.n; f++) {
         const field_spec *g = &d->fields.f[f];
-        int mine = g->support == PF_ON_PARTICLE && g->shape == (spin ? PF_SPIN : PF_VECTOR);
+        int mine = fields_moves_bodies(g) && g->shape == (spin ? PF_SPIN : PF_VECTOR);
 
-        mine *= 1 + (g->unit && strcmp(g->unit, spin ? "rad/s" : "m/s") == 0) + 2 * (g->constrains != NULL);
+        mine *= 1 + (g->constrains != NULL);
         if (mine > rank) {
             rank = mine;
             best = f;

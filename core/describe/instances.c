@@ -43,12 +43,26 @@ int describe_check_twice(description *d, const reader *own, const term_use *u)
     return 0;
 }
 
+enum { LABEL_MOST = 24 };
+
+static int is_label(const char *s)
+{
+    size_t n = strspn(s, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_");
+
+    return n > 0 && n <= LABEL_MOST && !s[n];
+}
+
 int describe_instance(description *d, reader *own, const value **inside, const char **label, error *err)
 {
     value *v;
 
     ARENA_NEW(&d->memory, v, 1, err);
-    reader_string(own, "name", "of the line, for reports: where a term stands on several lines", label);
+    if (reader_string(own, "name", "of the line, for reports: where a term stands on several lines", label) > 0 &&
+        !is_label(*label))
+        case_wrong(d->c, own->b, "name",
+                   "%s: \"name\" is a part of names of columns: expected at most %d letters, "
+                   "digits and _",
+                   own->what, LABEL_MOST);
     if (reader_condition(own, "inside", "where the term acts: true, or a number above 0, there", d->dim, v) > 0)
         *inside = v;
     return 0;

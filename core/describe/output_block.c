@@ -30,6 +30,12 @@ static void no_field(description *d, registry *plugins, reader *r, const char *w
             d->c, r->b, "fields",
             "output: fields: \"%s\" (%s) is in particles.csv without being asked for; fields of the mesh: %s",
             wrong, d->fields.f[f].doc, list.s ? list.s : "none");
+    else if (f >= 0)
+        case_wrong(d->c, r->b, "fields",
+                   "output: fields: \"%s\" (%s) is not a field of the mesh%s; fields of the mesh: %s", wrong,
+                   d->fields.f[f].doc,
+                   d->fields.f[f].support == PF_ON_PROBLEM ? "; it is in problem.csv without being asked for" : "",
+                   list.s ? list.s : "none");
     else if (term)
         case_wrong(d->c, r->b, "fields",
                    "output: there is no field \"%s\"; there are: %s; the line term \"%s\" {} shows it", wrong,

@@ -132,6 +132,13 @@ static void continue_in(description *d, const case_block *b, const char *name, d
     solve_spec *c = &d->solve;
     int found = 0;
 
+    for (int i = 0; i < d->law.n; i++)
+        if (term_publishes(d->law.use[i].term, name) >= 0) {
+            case_wrong(d->c, b, "continuation",
+                       "solve: continuation: \"%s\" is published by %s.%s; continue in a number of that term", name,
+                       d->law.use[i].plugin->d.name, d->law.use[i].term->name);
+            return;
+        }
     for (int i = 0; i < d->n_use + d->law.n; i++) {
         const term_use *u = i < d->n_use ? &d->use[i] : &d->law.use[i - d->n_use];
         const pf_param *q = describe_param(u, name);

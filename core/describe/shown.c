@@ -98,7 +98,8 @@ static int add_slot(description *d, int k, const pf_slot *slot, error *err)
     const term_use *u = &d->shown.use[k], *other = namesake(d, k, slot);
     const case_block *b = d->shown.block[k];
 
-    if (slot->eval == PF_SHOW && fields_find(&d->fields, slot->name) >= 0)
+    if (slot->eval == PF_SHOW &&
+        (fields_find(&d->fields, slot->name) >= 0 || fields_find(&d->kept, slot->name) >= 0))
         case_wrong(d->c, b, NULL, "term \"%s\": %s.%s shows \"%s\", and the case has a field of that name", b->name,
                    u->plugin->d.name, u->term->name, slot->name);
     else if (other)

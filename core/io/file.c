@@ -180,6 +180,12 @@ int table_create(table *t, const char *path, const char *const *column, int n, e
     if (!t->path || !t->column)
         return error_memory(err, path, 0);
     for (int i = 0; i < n; i++) {
+        for (int k = 0; k < i; k++)
+            if (strcmp(column[k], column[i]) == 0)
+                return error_set(err, ERR_CASE,
+                                 "%s would have two columns \"%s\": something that is shown is called like another "
+                                 "column; give its line a name, as in term \"...\" { name = \"my\" }",
+                                 path, column[i]);
         t->column[i] = strdup(column[i]);
         if (!t->column[i])
             return error_memory(err, path, 0);

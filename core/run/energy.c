@@ -114,6 +114,7 @@ static int take_kinetic(run *r, error *err)
     problem *p = r->p;
     newton_time at = {.t = p->state.t,
                       .kept = p->state.kept,
+                      .fluid = (const double(*)[6])p->state.fluid,
                       .bodies = problem_points(p),
                       .only = ASSEMBLE_INERTIA,
                       .power = power_meter_ask(&r->energy->meter)};

@@ -20,24 +20,25 @@ static const char *const columns_3d[] = {
     "u",  "v",  "w",  "omega_x",   "omega_y",   "omega_z",   "fx",          "fy", "fz",
     "tx", "ty", "tz", "contact_x", "contact_y", "contact_z", "active_nodes"};
 static const char *const coefficients[] = {"cx", "cy", "cz"};
-enum { COLUMNS_2D = 14, COLUMNS_3D = 25, MOST_SHOWN = 192 };
+enum { COLUMNS_2D = 14, COLUMNS_3D = 25 };
 
 int particles_plan(run *r, error *err)
 {
-    char path[4600], name[2 * OFF_MESH_MOST][OFF_MESH_NAME], own[MOST_SHOWN][96];
-    const char *column[COLUMNS_3D + 2 * OFF_MESH_MOST + MOST_SHOWN + 3], *unit[MOST_SHOWN];
+    char path[4600], name[2 * OFF_MESH_MOST][OFF_MESH_NAME], own[SHOWING_MOST_COLUMNS][96];
+    const char *column[COLUMNS_3D + 2 * OFF_MESH_MOST + SHOWING_MOST_COLUMNS + 3], *unit[SHOWING_MOST_COLUMNS];
     const int dim = r->p->description.dim, n = dim == 2 ? COLUMNS_2D : COLUMNS_3D;
     int more, n_shown;
 
     if (r->p->bodies.n == 0)
         return 0;
-    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D + 2 * OFF_MESH_MOST + MOST_SHOWN + 3, err);
+    ARENA_NEW(&r->memory, r->body_row, r->p->bodies.n + COLUMNS_3D + 2 * OFF_MESH_MOST + SHOWING_MOST_COLUMNS + 3,
+              err);
     memcpy(column, dim == 2 ? columns_2d : columns_3d, (size_t)n * sizeof *column);
     more = off_mesh_columns(r, PF_ON_PARTICLE, name);
     more += kept_columns(r, name + more);
     for (int i = 0; i < more; i++)
         column[n + i] = name[i];
-    n_shown = showing_body_columns(r, MOST_SHOWN, own, unit);
+    n_shown = showing_body_columns(r, SHOWING_MOST_COLUMNS, own, unit);
     for (int i = 0; i < n_shown; i++)
         column[n + more + i] = own[i];
     for (int i = 0; r->p->description.output.coefficient > 0 && i < dim; i++)

@@ -45,7 +45,7 @@ static int gather_columns(const run *r, arena *memory, results_input *in, error 
 }
 
 /* over: the run is over, and means and norms can be had; before, only their names. */
-static int gather(const run *r, int over, arena *memory, results_input *in, error *err)
+static int gather(run *r, int over, arena *memory, results_input *in, error *err)
 {
     const problem *p = r->p;
     const field_spec *shown;
@@ -67,6 +67,8 @@ static int gather(const run *r, int over, arena *memory, results_input *in, erro
         if (!over && p->description.has_exact[f])
             in->norm[in->n_norm++].name = p->space.field[f].name;
     }
+    if (over && n_shown)
+        TRY(showing_take(r, err));
     for (int f = 0; f < n_shown; f++) {
         results_mean *mean = &in->mean[in->n_mean++];
 

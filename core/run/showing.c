@@ -11,8 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_COLUMNS = 3 * SHOWN_MOST };
-
 struct showing {
     shown shown;
     int evaluated, projected; /* of the solution that r->x is */
@@ -20,6 +18,7 @@ struct showing {
     double *dot;              /* [n_dof] */
     double *history;          /* [n_dof] */
     double *row;              /* of integrals.csv */
+    moving_frame frame;       /* paths of rates near moving bodies; memory is that of now */
 };
 
 /* --- the terms --- */
@@ -137,9 +136,17 @@ static void take_rates(const run *r, assembly_state *at)
         w->history[i] = b.c[0] * s->before[i] + b.c[1] * s->before2[i];
         w->dot[i] = b.shift * s->x[i] + w->history[i];
     }
-    if (p->bodies.n)
-        at->frame = bodies_paths(&p->bodies, p->bodies.now, b.order, b.c, (const double *[]){s->before, s->before2},
-                                 (const pose *[]){s->pose_before, s->pose_before2}, w->history);
+    if (p->bodies.n) {
+        const moving_frame *f =
+            bodies_paths(&p->bodies, p->bodies.now, b.order, b.c, (const double *[]){s->before, s->before2},
+                         (const pose *[]){s->pose_before, s->pose_before2}, w->history);
+
+        if (f) {
+            w->frame = *f;
+            w->frame.before = NULL;
+            at->frame = &w->frame;
+        }
+    }
 }
 
 static int evaluate(run *r, error *err)
@@ -152,6 +159,7 @@ static int evaluate(run *r, error *err)
                          .dot = s->dot,
                          .old = r->x,
                          .kept = p->state.kept,
+                         .fluid = (const double(*)[6])p->state.fluid,
                          .bodies = problem_points(p)};
 
     if (s->evaluated)
@@ -250,18 +258,22 @@ static void add_unit(text *units, const char *name, const char *unit, int first)
     text_json(units, unit);
 }
 
-static void plan_bodies(const run *r, text *units)
+static int plan_bodies(const run *r, text *units, error *err)
 {
-    char name[MOST_COLUMNS][96];
-    const char *unit[MOST_COLUMNS];
-    int n = showing_body_columns(r, MOST_COLUMNS, name, unit);
+    char name[SHOWING_MOST_COLUMNS][96];
+    const char *unit[SHOWING_MOST_COLUMNS];
+    int n = showing_body_columns(r, SHOWING_MOST_COLUMNS, name, unit);
 
+    if (n > SHOWING_MOST_COLUMNS)
+        return error_set(err, ERR_CASE, "terms give %d columns of particles.csv, at most %d are possible", n,
+                         SHOWING_MOST_COLUMNS);
     if (n)
         text_add(units, "%s\n  \"particles.csv\": {", units->n > 1 ? "," : "");
     for (int i = 0; i < n; i++)
         add_unit(units, name[i], unit[i], i == 0);
     if (n)
         text_add(units, "}");
+    return 0;
 }
 
 int showing_plan(run *r, text *units, error *err)
@@ -272,7 +284,7 @@ int showing_plan(run *r, text *units, error *err)
 
     if (!r->showing)
         return 0;
-    plan_bodies(r, units);
+    TRY(plan_bodies(r, units, err));
     if (n == 0)
         return 0;
     ARENA_NEW(&r->memory, r->showing->row, n + 1, err);
@@ -308,8 +320,9 @@ int showing_body_columns(const run *r, int most, char (*name)[96], const char **
     int n = 0;
 
     for (int i = 0; s && i < s->n_integral; i++)
-        if (s->integral[i].per == SHOWN_BODY && n + s->integral[i].n_comp <= most) {
-            name_columns(&s->integral[i], "", name + n, unit + n);
+        if (s->integral[i].per == SHOWN_BODY) {
+            if (n + s->integral[i].n_comp <= most)
+                name_columns(&s->integral[i], "", name + n, unit + n);
             n += s->integral[i].n_comp;
         }
     return n;

@@ -11,6 +11,8 @@
 
 typedef struct showing showing;
 
+enum { SHOWING_MOST_COLUMNS = 192 }; /* of particles.csv; showing_plan refuses more */
+
 /* Before the tables are planned; r->showing stays NULL if the case has no such terms. */
 int showing_open(run *r, error *err);
 void showing_close(run *r);
@@ -20,7 +22,8 @@ void showing_forget(run *r);
 /* integrals.csv: its columns; a row. */
 int showing_plan(run *r, text *units, error *err);
 int showing_row(run *r, double t, error *err);
-/* Columns of particles.csv that come last: their number, names and units; the values of a body. */
+/* Columns of particles.csv that come last: their number, which may be more than there is room for, names and units;
+ * the values of a body. */
 int showing_body_columns(const run *r, int most, char (*name)[96], const char **unit);
 /* Returns where the row goes on, NULL: an error. */
 double *showing_body_row(run *r, int body, double *row, error *err);

@@ -10,7 +10,7 @@
 static int is_velocity(const field_spec *f)
 {
     if (f->support == PF_ON_PARTICLE)
-        return f->shape != PF_SCALAR;
+        return fields_moves_bodies(f);
     return f->support == PF_ON_MESH && f->shape == PF_VECTOR && f->reaction && strcmp(f->reaction, "force") == 0;
 }
 

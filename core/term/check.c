@@ -54,6 +54,8 @@ static int check_term(const term_plugin *p, const pf_term *t, const check_subjec
         return check_wrong(err, s, "lacks doc (its weak form) or cite (where the equation stands)");
     if (t->where < PF_CELL || t->where > PF_PAIR)
         return check_wrong(err, s, "acts on unknown points, where = %u", t->where);
+    if (t->n_param > TERM_MAX_PARAMS)
+        return check_wrong(err, s, "has %u parameters, at most %d are possible", t->n_param, TERM_MAX_PARAMS);
     if (!t->residual)
         return check_wrong(err, s, "has no residual function");
     if (t->n_out == 0 || !t->out || (t->n_in && !t->in) || (t->n_param && !t->param))

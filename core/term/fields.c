@@ -13,6 +13,14 @@ int fields_find(const field_list *l, const char *name)
     return -1;
 }
 
+int fields_moves_bodies(const field_spec *f)
+{
+    const int spin = f->shape == PF_SPIN;
+
+    return f->support == PF_ON_PARTICLE && (spin || f->shape == PF_VECTOR) &&
+           (strcmp(f->unit, spin ? "rad/s" : "m/s") == 0 || f->constrains);
+}
+
 int fields_add(field_list *l, int dim, const pf_field *f, const char *plugin, error *err)
 {
     int i = fields_find(l, f->name);

@@ -13,7 +13,7 @@
 #include <plugflow/plugin.h>
 #include <plugflow/solver.h>
 
-enum { TERM_MAX_SLOTS = 12, TERM_MAX_DIRS = 16, TERM_MAX_FILES = 64, TERM_MAX_FIELDS = 16 };
+enum { TERM_MAX_PARAMS = 32, TERM_MAX_SLOTS = 12, TERM_MAX_DIRS = 16, TERM_MAX_FILES = 64, TERM_MAX_FIELDS = 16 };
 
 /* A plugin after its checks.  All strides are those of this version's structs. */
 typedef struct term_plugin {
@@ -154,6 +154,9 @@ typedef struct field_list {
 /* Adds a field, or checks that it agrees with the one of this name. */
 int fields_add(field_list *l, int dim, const pf_field *f, const char *plugin, error *err);
 int fields_find(const field_list *l, const char *name); /* index or -1 */
+/* Whether the field is the velocity of bodies, a vector in m/s or one that says which field moves with it; or their
+ * spin, in rad/s.  There may be other vectors and spins of bodies. */
+int fields_moves_bodies(const field_spec *f);
 
 /* What this plugflow offers its plugins: pf_batch.host, and at their entry. */
 extern const pf_host term_host;

@@ -1,15 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A linear solver of one file: KLU (Davis and Palamadai Natarajan 2010, ACM Trans. Math. Softw. 37:36), a
- * factorisation with an ordering that is a choice of the case:
- *
- *     solve { solver = "klu", ordering = "colamd", pivot = 0.01 }
- *
- * KLU has columns where plugflow has rows, so it factors A^T and solves with the transpose of that. */
+ * KLU (Davis and Palamadai Natarajan 2010, ACM Trans. Math. Softw. 37:36), a factorisation with an ordering that is
+ * a choice of the case.  It has columns where plugflow has rows: it factors A^T and solves with the transpose of
+ * that. */
 #include <plugflow/solver.h>
 
 #include <klu.h>
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,19 +19,14 @@ struct klu {
     klu_l_common common;
     klu_l_symbolic *symbolic;
     klu_l_numeric *numeric;
-    int64_t n;
 };
 
 static int create(void **self, int n_thread, char *err, size_t nerr)
 {
-    struct klu *k = calloc(1, sizeof *k);
+    struct klu *k = *self = calloc(1, sizeof *k);
 
     (void)n_thread;
-    if (!k)
-        return snprintf(err, nerr, "no memory"), PF_SOLVER_MEMORY;
-    klu_l_defaults(&k->common);
-    *self = k;
-    return PF_SOLVER_OK;
+    return k && klu_l_defaults(&k->common) ? PF_SOLVER_OK : (snprintf(err, nerr, "no memory"), PF_SOLVER_MEMORY);
 }
 
 static int configure(void *self, const void *params, char *err, size_t nerr)
@@ -55,13 +46,12 @@ static int analyze(void *self, const pf_csr *a, pf_solver_cost *cost, char *err,
 
     klu_l_free_numeric(&k->numeric, &k->common);
     klu_l_free_symbolic(&k->symbolic, &k->common);
-    k->n = a->n;
     k->symbolic = klu_l_analyze(a->n, (int64_t *)a->row, (int64_t *)a->col, &k->common);
     if (!k->symbolic)
         return snprintf(err, nerr, "klu_l_analyze: status %d", (int)k->common.status), PF_SOLVER_MEMORY;
-    cost->fill = k->symbolic->lnz + k->symbolic->unz;
+    cost->fill = k->symbolic->lnz > 0 ? 2 * k->symbolic->lnz : 10. * (double)a->row[a->n]; /* colamd counts none */
+    cost->flops = cost->fill * cost->fill / (double)a->n;
     cost->bytes = 16 * cost->fill;
-    cost->flops = k->symbolic->est_flops;
     return PF_SOLVER_OK;
 }
 
@@ -73,8 +63,7 @@ static int setup(void *self, const pf_csr *a, char *err, size_t nerr)
     k->numeric = klu_l_factor((int64_t *)a->row, (int64_t *)a->col, (double *)a->value, k->symbolic, &k->common);
     if (k->numeric && klu_l_rcond(k->symbolic, k->numeric, &k->common) && k->common.rcond > 1e-18)
         return PF_SOLVER_OK;
-    snprintf(err, nerr, "klu_l_factor: status %d, pivots down to %g of the largest", (int)k->common.status,
-             k->common.rcond);
+    snprintf(err, nerr, "klu_l_factor: status %d, least pivot %g", (int)k->common.status, k->common.rcond);
     return k->common.status == KLU_OUT_OF_MEMORY ? PF_SOLVER_MEMORY : PF_SOLVER_SINGULAR;
 }
 
@@ -82,8 +71,8 @@ static int solve(void *self, const double *b, double *x, char *err, size_t nerr)
 {
     struct klu *k = self;
 
-    memcpy(x, b, (size_t)k->n * sizeof *x);
-    if (klu_l_tsolve(k->symbolic, k->numeric, k->n, 1, x, &k->common))
+    memcpy(x, b, (size_t)k->symbolic->n * sizeof *x);
+    if (klu_l_tsolve(k->symbolic, k->numeric, k->symbolic->n, 1, x, &k->common))
         return PF_SOLVER_OK;
     return snprintf(err, nerr, "klu_l_tsolve: status %d", (int)k->common.status), PF_SOLVER_ERROR;
 }
@@ -92,38 +81,19 @@ static void destroy(void *self)
 {
     struct klu *k = self;
 
-    if (k) {
-        klu_l_free_numeric(&k->numeric, &k->common);
-        klu_l_free_symbolic(&k->symbolic, &k->common);
-    }
+    klu_l_free_numeric(&k->numeric, &k->common);
+    klu_l_free_symbolic(&k->symbolic, &k->common);
     free(k);
 }
 
 static const char *const orderings[] = {"amd", "colamd", NULL};
-static const pf_param params[] = {
-    PF_NUMBER(struct options, pivot, "1", "least share of the largest entry that a diagonal pivot has",
-              .dflt = 1e-3, .min = 0, .max = 1),
-    {"ordering", "1", "of the unknowns", PF_T_CHOICE, 0, offsetof(struct options, ordering), .choice = orderings},
-};
-static const pf_solver klu = {.size = sizeof klu,
-                              .major = PF_SOLVER_MAJOR,
-                              .sizes = PF_SIZES,
-                              .name = "klu",
-                              .version = "1.0",
-                              .doc = "KLU, a factorisation for matrices of few entries",
-                              .create = create,
-                              .analyze = analyze,
-                              .setup = setup,
-                              .solve = solve,
-                              .destroy = destroy,
-                              .n_param = sizeof params / sizeof *params,
-                              .param_size = sizeof *params,
-                              .params_bytes = sizeof(struct options),
-                              .param = params,
-                              .configure = configure};
 
-PF_EXPORT const pf_solver *pf_solver_entry(char *err, size_t nerr)
-{
-    (void)err, (void)nerr;
-    return &klu;
-}
+PF_SOLVER(.name = "klu", .version = "1.0", .doc = "KLU, a factorisation for matrices of few entries",
+          .create = create, .analyze = analyze, .setup = setup, .solve = solve, .destroy = destroy,
+          .configure = configure,
+          PF_PARAMS(struct options,
+                    PF_NUMBER(struct options, pivot, "1",
+                              "least share of the largest entry that a diagonal pivot has", .dflt = 1e-3, .min = 0,
+                              .max = 1),
+                    {"ordering", "1", "of the unknowns", PF_T_CHOICE, 0, offsetof(struct options, ordering),
+                     .choice = orderings}))

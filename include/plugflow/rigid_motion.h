@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * rigid_motion.h -- how the points of a rigid body move, for equations on PF_SOLID and PF_SURFACE.  Include it at
- * the head of equations.h, after a twin: it is compiled for real numbers and for complex ones (twin_real.h).
+ * rigid_motion.h -- how the points of a rigid body move, for equations on PF_SOLID and PF_SURFACE.  Include it
+ * after term.h (or a twin, twin_real.h): it is compiled for real numbers and for complex ones.
  *
  * r: the batch's arm, from the body's centre.  Spins have one component in 2D, out of the plane, three in 3D. */
 

@@ -110,4 +110,19 @@ typedef struct pf_solver {
 typedef const pf_solver *pf_solver_entry_fn(char *err, size_t nerr);
 /* The exported symbol: the description, or NULL with the reason in err. */
 PF_EXPORT const pf_solver *pf_solver_entry(char *err, size_t nerr);
+
+/* A plugin of one solver, description and entry:
+ *     PF_SOLVER(.name = "klu", .version = "1.0", .doc = "...", .create = create, ..., PF_PARAMS(struct options, ...)) */
+#define PF_SOLVER(...)                                                                                             \
+    static const pf_solver pf_solver_here = {.size = sizeof(pf_solver),                                            \
+                                             .major = PF_SOLVER_MAJOR,                                             \
+                                             .sizes = PF_SIZES,                                                    \
+                                             .param_size = sizeof(pf_param),                                       \
+                                             __VA_ARGS__};                                                         \
+                                                                                                                   \
+    const pf_solver *pf_solver_entry(char *err, size_t nerr)                                                       \
+    {                                                                                                              \
+        (void)err, (void)nerr;                                                                                     \
+        return &pf_solver_here;                                                                                    \
+    }
 #endif

@@ -72,8 +72,9 @@
 
 #define LANES(i)     PF_LANES_OF (b, i)
 #define EACH(a)      for (uint32_t a = 0; a < b->dim; a++)
-#define EACH_SPIN(a) for (uint32_t a = 0; a < (b->dim == 2 ? 1u : 3u); a++)
+#define EACH_SPIN(a) for (uint32_t a = 0; a < PF_SPINS; a++)
 #define DIM          (b->dim)
+#define PF_SPINS     (b->dim == 2 ? 1u : 3u)
 
 #define AT(...)                  PF_PICK(__VA_ARGS__, PF_AT2, PF_AT1, )(__VA_ARGS__)
 #define PF_PICK(a, b, c, d, ...) d
@@ -311,6 +312,13 @@
 #define PF_BLOCK_VECTOR_TENSOR(NAME) double(*restrict NAME)[b->dim][b->dim][b->ld]
 #define PF_BLOCK_TENSOR_VECTOR(NAME) double(*restrict NAME)[b->dim][b->dim][b->ld]
 #define PF_BLOCK_TENSOR_TENSOR(NAME) double(*restrict NAME)[b->dim][b->dim][b->dim][b->ld]
+#define PF_BLOCK_SPIN_SCALAR(NAME)   double(*restrict NAME)[b->ld]
+#define PF_BLOCK_SPIN_VECTOR(NAME)   double(*restrict NAME)[b->dim][b->ld]
+#define PF_BLOCK_SPIN_TENSOR(NAME)   double(*restrict NAME)[b->dim][b->dim][b->ld]
+#define PF_BLOCK_SPIN_SPIN(NAME)     double(*restrict NAME)[PF_SPINS][b->ld]
+#define PF_BLOCK_SCALAR_SPIN(NAME)   double(*restrict NAME)[b->ld]
+#define PF_BLOCK_VECTOR_SPIN(NAME)   double(*restrict NAME)[PF_SPINS][b->ld]
+#define PF_BLOCK_TENSOR_SPIN(NAME)   double(*restrict NAME)[b->dim][PF_SPINS][b->ld]
 
 #define PF_UNUSED           __attribute__((unused))
 #define PF_LOCAL            __attribute__((visibility("hidden")))
@@ -360,12 +368,16 @@
      .offset = offsetof(struct TERM_NAME##_params, NAME),                                                          \
      __VA_ARGS__},
 
-/* M(X, K, A) for each A of a list of up to 16, which may be empty; K = 0, 1, ... */
-#define PF_EACH(M, X, ...)                                                     PF_EACH_OF(PF_LENGTH(__VA_ARGS__))(M, X, 0, __VA_ARGS__)
-#define PF_EACH_OF(N)                                                          PF_EACH_OF_I(N)
-#define PF_EACH_OF_I(N)                                                        PF_EACH_##N
-#define PF_LENGTH(...)                                                         PF_LENGTH_I(_, ##__VA_ARGS__, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0, _)
-#define PF_LENGTH_I(_, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, N, ...) N
+/* M(X, K, A) for each A of a list of up to 32, which may be empty; K = 0, 1, ... */
+#define PF_EACH(M, X, ...) PF_EACH_OF(PF_LENGTH(__VA_ARGS__))(M, X, 0, __VA_ARGS__)
+#define PF_EACH_OF(N)      PF_EACH_OF_I(N)
+#define PF_EACH_OF_I(N)    PF_EACH_##N
+#define PF_LENGTH(...)                                                                                             \
+    PF_LENGTH_I(_, ##__VA_ARGS__, 32, 31, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, 19, 18, 17, 16, 15, 14, 13,  \
+                12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0, _)
+#define PF_LENGTH_I(_, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, A, B, C, D,   \
+                    E, F, N, ...)                                                                                  \
+    N
 #define PF_EACH_0(M, X, K, A)
 #define PF_EACH_1(M, X, K, A)       M(X, K, A)
 #define PF_EACH_2(M, X, K, A, ...)  M(X, K, A) PF_EACH_1(M, X, K + 1, __VA_ARGS__)
@@ -383,6 +395,22 @@
 #define PF_EACH_14(M, X, K, A, ...) M(X, K, A) PF_EACH_13(M, X, K + 1, __VA_ARGS__)
 #define PF_EACH_15(M, X, K, A, ...) M(X, K, A) PF_EACH_14(M, X, K + 1, __VA_ARGS__)
 #define PF_EACH_16(M, X, K, A, ...) M(X, K, A) PF_EACH_15(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_17(M, X, K, A, ...) M(X, K, A) PF_EACH_16(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_18(M, X, K, A, ...) M(X, K, A) PF_EACH_17(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_19(M, X, K, A, ...) M(X, K, A) PF_EACH_18(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_20(M, X, K, A, ...) M(X, K, A) PF_EACH_19(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_21(M, X, K, A, ...) M(X, K, A) PF_EACH_20(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_22(M, X, K, A, ...) M(X, K, A) PF_EACH_21(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_23(M, X, K, A, ...) M(X, K, A) PF_EACH_22(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_24(M, X, K, A, ...) M(X, K, A) PF_EACH_23(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_25(M, X, K, A, ...) M(X, K, A) PF_EACH_24(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_26(M, X, K, A, ...) M(X, K, A) PF_EACH_25(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_27(M, X, K, A, ...) M(X, K, A) PF_EACH_26(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_28(M, X, K, A, ...) M(X, K, A) PF_EACH_27(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_29(M, X, K, A, ...) M(X, K, A) PF_EACH_28(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_30(M, X, K, A, ...) M(X, K, A) PF_EACH_29(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_31(M, X, K, A, ...) M(X, K, A) PF_EACH_30(M, X, K + 1, __VA_ARGS__)
+#define PF_EACH_32(M, X, K, A, ...) M(X, K, A) PF_EACH_31(M, X, K + 1, __VA_ARGS__)
 
 /* What is said of parameters and of pairs before there is any point. */
 #define CHECK(NAME, KEYS)                                                                                          \

@@ -8,113 +8,119 @@
  * In 2D charges and dipoles are lines out of the plane, and everything is per length.  V and xi are the test
  * functions of velocity and angular velocity: the power of a force F is F . V, and what drives stands with a minus.
  */
-#include <plugflow/fluid.h>
+#include <plugflow/term.h>
 
-#include <math.h>
+#define CHARGE   .unit = "C", .doc = "charge of the body"
+#define MOMENT   .unit = "C m", .doc = "dipole moment in the body's axes"
+#define CONSTANT REAL(constant, "N m^2/C^2", "1/(4 pi epsilon) of the fluid", .flags = PF_REQUIRED, PF_NOT_NEGATIVE)
+#define SCREENED_KEYS                                                                                              \
+    CONSTANT, REAL(length, "m", "over which charges are screened", .flags = PF_REQUIRED, .min = 1e-300, .max = 1e30)
+#define ONE_BY_ONE .flags = PF_LINEAR | PF_OPTIONAL
 
-struct electro {
-    double constant, length;     /* 1/(4 pi epsilon); of screening, m */
-    double stiffness, centre[3]; /* of the trap                       */
-};
-
-#define LD     (b->ld)
-#define LANES  for (uint32_t i = 0; i < b->n; i++)
-#define POINTS PF_TERM_SIZES, .flags = PF_LINEAR | PF_OPTIONAL
-
-/* -q E . V */
-static int force(const pf_batch *b, const double *const *in, double *const *out)
+TERM(force, PF_PARTICLE, IN(SLOT(q, charge, BODY_KEY, SCALAR, CHARGE), DATA(field, VECTOR)), OUT(V), PARAMS(),
+     .flags = PF_LINEAR, .doc = "-q\\,E\\cdot V", .cite = "Jackson 1999, Classical Electrodynamics, (1.2)")
 {
-    for (uint32_t a = 0; a < b->dim; a++)
-        LANES
-            out[0][a * LD + i] = -in[0][i] * in[1][a * LD + i];
-    return PF_OK;
+    EACH (a)
+        LANES (i)
+            V[a][i] = -q[i] * field[a][i];
 }
 
 /* m in the axes of space, from that in the body's: sum_k axes_ak m_k. */
-static void turn(const pf_batch *b, const double *axes, const double *moment, uint32_t i, double m[3])
+static inline void F(turn)(const pf_batch *b, const double *axes, const NUM *moment, uint32_t i, NUM *m)
 {
     m[2] = 0;
-    for (uint32_t a = 0; a < b->dim; a++) {
+    EACH (a) {
         m[a] = 0;
-        for (uint32_t k = 0; k < b->dim; k++)
-            m[a] += axes[(a * b->dim + k) * LD + i] * moment[k * LD + i];
+        EACH (k)
+            m[a] += AT(axes, a, k) * AT(moment, k);
     }
 }
 
 /* out = -m x E, in 2D its third component */
-static void put_torque(const pf_batch *b, const double m[3], const double E[3], uint32_t i, double *out)
+static inline void F(put_torque)(const pf_batch *b, const NUM *m, const NUM *E, uint32_t i, NUM *out)
 {
-    for (uint32_t a = 0; a < 3; a++) {
-        const uint32_t p = (a + 1) % 3, q = (a + 2) % 3;
+    EACH_SPIN (a) {
+        const uint32_t p = DIM == 2 ? 0 : (a + 1) % 3, q = DIM == 2 ? 1 : (a + 2) % 3;
 
-        if (b->dim == 3 || a == 2)
-            out[(b->dim == 3 ? a : 0) * LD + i] = -(m[p] * E[q] - m[q] * E[p]);
+        AT(out, a) = -(m[p] * E[q] - m[q] * E[p]);
     }
 }
 
-/* -(m x E) . xi */
-static int torque(const pf_batch *b, const double *const *in, double *const *out)
+TERM(torque, PF_PARTICLE, IN(SLOT(m, moment, BODY_KEY, VECTOR, MOMENT), DATA(field, VECTOR)), OUT(xi), PARAMS(),
+     ONE_BY_ONE, .doc = "-(m\\times E)\\cdot\\xi", .cite = "Jackson 1999, Classical Electrodynamics, ch. 4")
 {
-    LANES {
-        double m[3], E[3] = {0};
+    LANES (i) {
+        NUM turned[3], E[3] = {0};
 
-        turn(b, b->axes, in[0], i, m);
-        for (uint32_t a = 0; a < b->dim; a++)
-            E[a] = in[1][a * LD + i];
-        put_torque(b, m, E, i, out[0]);
+        F(turn)(b, b->axes, m[0], i, turned);
+        EACH (a)
+            E[a] = field[a][i];
+        F(put_torque)(b, turned, E, i, xi[0]);
     }
-    return PF_OK;
 }
 
 /* n = r / |r|, r from the centre of the other to that of the first; returns |r|, of a wall 1. */
-static double between(const pf_batch *b, uint32_t i, double n[3])
+static inline double F(between)(const pf_batch *b, uint32_t i, double *n)
 {
     double r = 0;
 
     n[2] = 0;
-    for (uint32_t a = 0; a < b->dim; a++) {
-        n[a] = b->centre[a * LD + i] - b->other_centre[a * LD + i];
+    EACH (a) {
+        n[a] = AT(b->centre, a) - AT(b->other_centre, a);
         r += n[a] * n[a];
     }
     r = b->other_id[i] < 0 ? 1 : sqrt(r);
-    for (uint32_t a = 0; a < b->dim; a++)
+    EACH (a)
         n[a] /= r;
     return r;
 }
 
-/* -F n . (V1 - V2):  F = k q1 q2 / r^2,  in 2D 2 k q1 q2 / r */
-static int coulomb(const pf_batch *b, const double *const *in, double *const *out)
+/* -F n . (V1 - V2):  F = k q1 q2 / r^2,  in 2D 2 k q1 q2 / r.  It has no end. */
+TERM(coulomb, PF_PAIR,
+     IN(SLOT(q, charge, BODY_KEY, SCALAR, CHARGE), SLOT(other_q, charge, OTHER_KEY, SCALAR, CHARGE)),
+     OUT(SLOT(V, U, DEFECT, VECTOR)), PARAMS(CONSTANT), ONE_BY_ONE, .reach = coulomb_reach,
+     .doc = "-k\\,q_1q_2\\,\\frac{n}{r^2}\\cdot(V_1-V_2)", .cite = "Jackson 1999, Classical Electrodynamics, (1.2)")
 {
-    const struct electro *e = b->params;
+    LANES (i) {
+        double n[3], r = F(between)(b, i, n);
+        const NUM F = constant * q[i] * other_q[i] / r;
 
-    LANES {
-        double n[3], r = between(b, i, n), F = e->constant * in[0][i] * in[1][i] / r;
-
-        for (uint32_t a = 0; a < b->dim; a++)
-            out[0][a * LD + i] = -F * (b->dim == 2 ? 2 : 1 / r) * n[a];
+        EACH (a)
+            V[a][i] = -F * (DIM == 2 ? 2 : 1 / r) * n[a];
     }
-    return PF_OK;
+}
+
+REACH(coulomb, PARAMS(CONSTANT))
+{
+    return INFINITY;
 }
 
 /* -F n . (V1 - V2):  F = k q1 q2 (1/r^2 + 1/(l r)) exp(-r/l), of the potential k q1 q2 exp(-r/l) / r */
-static int screened(const pf_batch *b, const double *const *in, double *const *out)
+TERM(screened, PF_PAIR,
+     IN(SLOT(q, charge, BODY_KEY, SCALAR, CHARGE), SLOT(other_q, charge, OTHER_KEY, SCALAR, CHARGE)),
+     OUT(SLOT(V, U, DEFECT, VECTOR)), PARAMS(SCREENED_KEYS), .flags = PF_LINEAR | PF_OPTIONAL | PF_ONLY_3D,
+     .reach = screened_reach,
+     .doc = "-k\\,q_1q_2\\left(\\frac1r+\\frac1\\ell\\right)\\frac{e^{-r/\\ell}}r\\,n\\cdot(V_1-V_2)",
+     .cite = "Debye and Hueckel 1923, Phys. Z. 24:185")
 {
-    const struct electro *e = b->params;
+    LANES (i) {
+        double n[3], r = F(between)(b, i, n);
+        const NUM F = constant * q[i] * other_q[i] * (1 / r + 1 / length) / r * exp(-r / length);
 
-    LANES {
-        double n[3], r = between(b, i, n);
-        double F = e->constant * in[0][i] * in[1][i] * (1 / r + 1 / e->length) / r * exp(-r / e->length);
-
-        for (uint32_t a = 0; a < b->dim; a++)
-            out[0][a * LD + i] = -F * n[a];
+        EACH (a)
+            V[a][i] = -F * n[a];
     }
-    return PF_OK;
+}
+
+REACH(screened, PARAMS(SCREENED_KEYS))
+{
+    return INFINITY;
 }
 
 /* Field of a dipole m at the place r n:  E = k (3 n (n.m) - m) / r^3,  in 2D 2 k (2 n (n.m) - m) / r^2 */
-static void field_of(uint32_t dim, double k, double r, const double n[3], const double m[3], double E[3])
+static inline void F(field_of)(uint32_t dim, double k, double r, const double *n, const NUM *m, NUM *E)
 {
-    const double along = n[0] * m[0] + n[1] * m[1] + n[2] * m[2];
+    const NUM along = n[0] * m[0] + n[1] * m[1] + n[2] * m[2];
 
     for (int a = 0; a < 3; a++)
         E[a] = dim == 2 ? 2 * k * (2 * n[a] * along - m[a]) / (r * r) : k * (3 * n[a] * along - m[a]) / (r * r * r);
@@ -125,156 +131,50 @@ static void field_of(uint32_t dim, double k, double r, const double n[3], const 
  * k / r^3),
  *
  *     F = c ((n.m2) m1 + (n.m1) m2 + (m1.m2) n - s (n.m1) (n.m2) n) */
-static int dipoles(const pf_batch *b, const double *const *in, double *const *out)
+TERM(dipoles, PF_PAIR,
+     IN(SLOT(m, moment, BODY_KEY, VECTOR, MOMENT), SLOT(other_m, moment, OTHER_KEY, VECTOR, MOMENT)),
+     OUT(SLOT(V, U, DEFECT, VECTOR), xi, SLOT(other_xi, omega, OTHER, SPIN)), PARAMS(CONSTANT), ONE_BY_ONE,
+     .reach = dipoles_reach, .doc = "-F\\cdot(V_1-V_2)-(m_1\\times E_2)\\cdot\\xi_1-(m_2\\times E_1)\\cdot\\xi_2",
+     .cite = "Jackson 1999, Classical Electrodynamics, (4.13)")
 {
-    const struct electro *e = b->params;
-    const int plane = b->dim == 2;
+    LANES (i) {
+        double n[3], r = F(between)(b, i, n);
+        const double c = constant * (DIM == 2 ? 4 / (r * r * r) : 3 / (r * r * r * r)), s = DIM == 2 ? 4 : 5;
+        NUM m1[3], m2[3], E1[3], E2[3], n1 = 0, n2 = 0, both = 0;
 
-    LANES {
-        double n[3], m1[3], m2[3], E1[3], E2[3], n1 = 0, n2 = 0, both = 0;
-        const double r = between(b, i, n), c = e->constant * (plane ? 4 / (r * r * r) : 3 / (r * r * r * r));
-
-        turn(b, b->axes, in[0], i, m1);
-        turn(b, b->other_axes, in[1], i, m2);
-        for (int a = 0; a < 3; a++) {
+        F(turn)(b, b->axes, m[0], i, m1);
+        F(turn)(b, b->other_axes, other_m[0], i, m2);
+        EACH (a) {
             n1 += n[a] * m1[a];
             n2 += n[a] * m2[a];
             both += m1[a] * m2[a];
         }
-        for (uint32_t a = 0; a < b->dim; a++)
-            out[0][a * LD + i] = -c * (n2 * m1[a] + n1 * m2[a] + (both - (plane ? 4 : 5) * n1 * n2) * n[a]);
-        field_of(b->dim, e->constant, r, n, m1, E1);
-        field_of(b->dim, e->constant, r, n, m2, E2);
-        put_torque(b, m1, E2, i, out[1]);
-        put_torque(b, m2, E1, i, out[2]);
+        EACH (a)
+            V[a][i] = -c * (n2 * m1[a] + n1 * m2[a] + (both - s * n1 * n2) * n[a]);
+        F(field_of)(DIM, constant, r, n, m1, E1);
+        F(field_of)(DIM, constant, r, n, m2, E2);
+        F(put_torque)(b, m1, E2, i, xi[0]);
+        F(put_torque)(b, m2, E1, i, other_xi[0]);
     }
-    return PF_OK;
 }
 
-/* k (x - x0) . V */
-static int trap(const pf_batch *b, const double *const *in, double *const *out)
+REACH(dipoles, PARAMS(CONSTANT))
 {
-    const struct electro *e = b->params;
-
-    (void)in;
-    for (uint32_t a = 0; a < b->dim; a++)
-        LANES
-            out[0][a * LD + i] = e->stiffness * (b->centre[a * LD + i] - e->centre[a]);
-    return PF_OK;
-}
-
-/* Coulomb's force has no end. */
-static double everywhere(const void *params, double size, double h)
-{
-    (void)params, (void)size, (void)h;
     return INFINITY;
 }
 
-#define CHARGE(NAME, EVAL)                                                                                         \
-    {                                                                                                              \
-        NAME, "charge", EVAL, PF_SCALAR, .unit = "C", .doc = "charge of the body"                                  \
-    }
-#define MOMENT(NAME, EVAL)                                                                                         \
-    {                                                                                                              \
-        NAME, "moment", EVAL, PF_VECTOR, .unit = "C m", .doc = "dipole moment in the body's axes"                  \
-    }
-#define CONSTANT                                                                                                   \
-    PF_NUMBER(struct electro, constant, "N m^2/C^2", "1/(4 pi epsilon) of the fluid", .flags = PF_REQUIRED,        \
-              PF_NOT_NEGATIVE)
+/* k (x - x0) . V */
+TERM(trap, PF_PARTICLE, IN(), OUT(V),
+     PARAMS(REAL(stiffness, "N/m", "of the trap", .flags = PF_REQUIRED, PF_NOT_NEGATIVE),
+            VECTOR(centre, "m", "of the trap", .flags = PF_REQUIRED)),
+     ONE_BY_ONE, .doc = "k\\,(x-x_0)\\cdot V", .cite = "Ashkin 1986, Opt. Lett. 11:288")
+{
+    EACH (a)
+        LANES (i)
+            V[a][i] = stiffness * (AT(b->centre, a) - centre[a]);
+}
 
-static const pf_term force_term = {
-    PF_TERM_SIZES,
-    .name = "force",
-    .residual = force,
-    .where = PF_PARTICLE,
-    .flags = PF_LINEAR,
-    .doc = "-q\\,E\\cdot V",
-    .cite = "Jackson 1999, Classical Electrodynamics, (1.2)",
-    PF_IN(CHARGE("q", PF_BODY_KEY), {"field", NULL, PF_DATA, PF_VECTOR}),
-    PF_OUT({"V", "U", PF_VALUE, PF_VECTOR}),
-};
-
-static const pf_term torque_term = {
-    POINTS,
-    .name = "torque",
-    .residual = torque,
-    .where = PF_PARTICLE,
-    .doc = "-(m\\times E)\\cdot\\xi",
-    .cite = "Jackson 1999, Classical Electrodynamics, ch. 4",
-    PF_IN(MOMENT("m", PF_BODY_KEY), {"field", NULL, PF_DATA, PF_VECTOR}),
-    PF_OUT({"xi", "omega", PF_VALUE, PF_SPIN}),
-};
-
-static const pf_term coulomb_term = {
-    POINTS,
-    .name = "coulomb",
-    .residual = coulomb,
-    .where = PF_PAIR,
-    .doc = "-k\\,q_1q_2\\,\\frac{n}{r^2}\\cdot(V_1-V_2)",
-    .cite = "Jackson 1999, Classical Electrodynamics, (1.2)",
-    PF_IN(CHARGE("q", PF_BODY_KEY), CHARGE("other_q", PF_OTHER_KEY)),
-    PF_OUT({"V", "U", PF_DEFECT, PF_VECTOR}),
-    PF_PARAMS(struct electro, CONSTANT),
-    .reach = everywhere,
-};
-
-static const pf_term screened_term = {
-    PF_TERM_SIZES,
-    .name = "screened",
-    .residual = screened,
-    .where = PF_PAIR,
-    .flags = PF_LINEAR | PF_OPTIONAL | PF_ONLY_3D,
-    .doc = "-k\\,q_1q_2\\left(\\frac1r+\\frac1\\ell\\right)\\frac{e^{-r/\\ell}}r\\,n\\cdot(V_1-V_2)",
-    .cite = "Debye and Hueckel 1923, Phys. Z. 24:185",
-    PF_IN(CHARGE("q", PF_BODY_KEY), CHARGE("other_q", PF_OTHER_KEY)),
-    PF_OUT({"V", "U", PF_DEFECT, PF_VECTOR}),
-    PF_PARAMS(struct electro, CONSTANT,
-              PF_NUMBER(struct electro, length, "m", "over which charges are screened", .flags = PF_REQUIRED,
-                        .min = 1e-300, .max = 1e30)),
-    .reach = everywhere,
-};
-
-static const pf_term dipoles_term = {
-    POINTS,
-    .name = "dipoles",
-    .residual = dipoles,
-    .where = PF_PAIR,
-    .doc = "-F\\cdot(V_1-V_2)-(m_1\\times E_2)\\cdot\\xi_1-(m_2\\times E_1)\\cdot\\xi_2",
-    .cite = "Jackson 1999, Classical Electrodynamics, (4.13)",
-    PF_IN(MOMENT("m", PF_BODY_KEY), MOMENT("other_m", PF_OTHER_KEY)),
-    PF_OUT({"V", "U", PF_DEFECT, PF_VECTOR}, {"xi", "omega", PF_VALUE, PF_SPIN},
-           {"other_xi", "omega", PF_OTHER, PF_SPIN}),
-    PF_PARAMS(struct electro, CONSTANT),
-    .reach = everywhere,
-};
-
-static const pf_term trap_term = {
-    POINTS,
-    .name = "trap",
-    .residual = trap,
-    .where = PF_PARTICLE,
-    .doc = "k\\,(x-x_0)\\cdot V",
-    .cite = "Ashkin 1986, Opt. Lett. 11:288",
-    PF_OUT({"V", "U", PF_VALUE, PF_VECTOR}),
-    PF_PARAMS(struct electro,
-              PF_NUMBER(struct electro, stiffness, "N/m", "of the trap", .flags = PF_REQUIRED, PF_NOT_NEGATIVE),
-              {.name = "centre",
-               .unit = "m",
-               .doc = "of the trap",
-               .type = PF_T_VECTOR,
-               .flags = PF_REQUIRED,
-               .offset = offsetof(struct electro, centre)}),
-};
-
-static const pf_plugin electro = {
-    PF_PLUGIN,
-    .min_minor = 4,
-    .name = "electro",
-    .version = "1.0",
-    .author = "plugflow",
-    .license = "GPL-3.0-or-later",
-    .doc = "charged and polarised bodies in a field and near each other",
-    PF_FIELDS(PF_FIELD_BODY_VELOCITY(), PF_FIELD_BODY_SPIN),
-    PF_TERMS(&force_term, &torque_term, &coulomb_term, &screened_term, &dipoles_term, &trap_term),
-};
-PF_ENTRY(electro)
+PLUGIN(electro, "charged and polarised bodies in a field and near each other", FIELDS(U, omega),
+       TERMS(force, torque, coulomb, screened, dipoles, trap), .author = "plugflow", .license = "GPL-3.0-or-later",
+       .min_minor = 4)
+#include PF_TWIN

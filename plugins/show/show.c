@@ -3,192 +3,218 @@
  * What one wants to know of a flow: fields (shear rate, vorticity, dissipation), integrals over the fluid (kinetic
  * energy, enstrophy, dissipation), over boundaries (flow rate, pressure, shear, heat) and over bodies.  No term
  * gives an equation, and each is off unless its line, term "show.vorticity" {}, switches it on. */
-#include <plugflow/fluid.h>
+#include <plugflow/term.h>
 
-#include <math.h>
+#include <plugflow/rigid_motion.h>
 
-#include <plugflow/twin_real.h>
-
-/* The struct of heat_flux. */
-typedef struct conductor {
-    double conductivity; /* W/(m K) */
-} conductor;
-
-#include "quantities.h"
-
-/* A term without derivatives, as nothing is solved for. */
-#define SHOWS(FUNCTION)                                                                                            \
-    PF_TERM_SIZES, .name = #FUNCTION, .residual = FUNCTION, .flags = PF_OPTIONAL, .cite = "docs/plugins.md, Outputs"
-
-#define VELOCITY                                                                                                   \
-    {                                                                                                              \
-        "u", "u", PF_VALUE, PF_VECTOR                                                                              \
-    }
-#define VELOCITY_GRADIENT                                                                                          \
-    {                                                                                                              \
-        "grad_u", "u", PF_GRAD, PF_TENSOR                                                                          \
-    }
-#define PRESSURE                                                                                                   \
-    {                                                                                                              \
-        "p", "p", PF_VALUE, PF_SCALAR                                                                              \
-    }
-
-#define SHOW(NAME, SHAPE, UNIT, DOC)                                                                               \
-    {                                                                                                              \
-        .name = NAME, .eval = PF_SHOW, .shape = SHAPE, .unit = UNIT, .doc = DOC                                    \
-    }
-#define INTEGRAL(NAME, SHAPE, UNIT, DOC)                                                                           \
-    {                                                                                                              \
-        .name = NAME, .eval = PF_INTEGRAL, .shape = SHAPE, .unit = UNIT, .doc = DOC                                \
-    }
+#define SHOWN .flags = PF_OPTIONAL, .cite = "docs/plugins.md, Outputs"
 
 /* What makes a reduced pressure the true one. */
 #define TRUE_PRESSURE                                                                                              \
-    PF_NUMBER(pf_fluid, density, "kg/m^3", "mass per volume", .flags = PF_SHARED, PF_NOT_NEGATIVE),                \
-        PF_GRAVITY(pf_fluid), PF_REDUCED_PRESSURE(pf_fluid)
-#define VISCOUS PF_PARAMS(pf_fluid, PF_VISCOSITY(pf_fluid))
-
-static const double viscosity_3[] = {3}, density_2[] = {2};
+    REAL(density, "kg/m^3", "mass per volume", .flags = PF_SHARED, PF_NOT_NEGATIVE), GRAVITY, REDUCED_PRESSURE
+#define CONDUCTIVITY                                                                                               \
+    REAL(conductivity, "W/(m K)", "thermal conductivity", .flags = PF_REQUIRED | PF_SHARED, PF_NOT_NEGATIVE)
 
 /* --- fields --- */
 
-static const pf_term term_shear_rate = {
-    SHOWS(shear_rate),
-    .where = PF_FLUID,
-    .doc = "\\sqrt{2\\,D(u):D(u)}",
-    PF_IN(VELOCITY_GRADIENT),
-    PF_OUT(SHOW("shear_rate", PF_SCALAR, "1/s", "shear rate")),
-    PF_EXAMPLES({"grad u = (0 3; 1 0): a shear of 4", 2, NULL, (double[]){0, 3, 1, 0}, (double[]){4}, 1e-15}),
-};
+/* 2 D : D = 1/2 (2 D) : (2 D) at lane i */
+static inline NUM F(strain_squared)(const pf_batch *b, const NUM *grad_u, uint32_t i)
+{
+    NUM sum = 0;
 
-static const pf_term term_vorticity = {
-    SHOWS(vorticity),
-    .where = PF_FLUID,
-    .doc = "\\nabla\\times u",
-    PF_IN(VELOCITY_GRADIENT),
-    PF_OUT(SHOW("vorticity", PF_SPIN, "1/s", "vorticity")),
-    PF_EXAMPLES({"grad u = (0 3; 1 0)", 2, NULL, (double[]){0, 3, 1, 0}, (double[]){-2}, 1e-15}),
-};
+    EACH (a)
+        EACH (k) {
+            const NUM e = AT(grad_u, a, k) + AT(grad_u, k, a);
 
-static const pf_term term_dissipation = {
-    SHOWS(dissipation),
-    .where = PF_FLUID,
-    .doc = "2\\mu\\,D(u):D(u)",
-    PF_IN(VELOCITY_GRADIENT, PF_TAKES_VISCOSITY),
-    PF_OUT(SHOW("dissipation", PF_SCALAR, "W/m^3", "power that viscosity dissipates, per volume"),
-           INTEGRAL("dissipated", PF_SCALAR, "W", "power that viscosity dissipates")),
-    VISCOUS,
-    PF_EXAMPLES(
-        {"grad u = (0 3; 1 0), mu = 3", 2, viscosity_3, (double[]){0, 3, 1, 0, 3}, (double[]){48, 48}, 1e-15}),
-};
+            sum += 0.5 * e * e;
+        }
+    return sum;
+}
+
+TERM(shear_rate, PF_FLUID, IN(grad_u), OUT(SHOW(shear_rate, SCALAR, "1/s", "shear rate")), PARAMS(), SHOWN,
+     .doc = "\\sqrt{2\\,D(u):D(u)}",
+     PF_EXAMPLES({"grad u = (0 3; 1 0): a shear of 4", 2, NULL, (double[]){0, 3, 1, 0}, (double[]){4}, 1e-15}))
+{
+    LANES (i)
+        shear_rate[i] = sqrt(F(strain_squared)(b, grad_u[0][0], i));
+}
+
+/* d u_y / dx - d u_x / dy; in 3D component a is d u_{a+2} / d x_{a+1} - d u_{a+1} / d x_{a+2} */
+TERM(vorticity, PF_FLUID, IN(grad_u), OUT(SHOW(vorticity, SPIN, "1/s", "vorticity")), PARAMS(), SHOWN,
+     .doc = "\\nabla\\times u",
+     PF_EXAMPLES({"grad u = (0 3; 1 0)", 2, NULL, (double[]){0, 3, 1, 0}, (double[]){-2}, 1e-15}))
+{
+    EACH_SPIN (a) {
+        const uint32_t p = DIM == 2 ? 0 : (a + 1) % 3, q = DIM == 2 ? 1 : (a + 2) % 3;
+
+        LANES (i)
+            vorticity[a][i] = grad_u[q][p][i] - grad_u[p][q][i];
+    }
+}
+
+TERM(dissipation, PF_FLUID, IN(grad_u, mu),
+     OUT(SHOW(dissipation, SCALAR, "W/m^3", "power that viscosity dissipates, per volume"),
+         INTEGRAL(dissipated, SCALAR, "W", "power that viscosity dissipates")),
+     PARAMS(VISCOSITY), SHOWN, .doc = "2\\mu\\,D(u):D(u)",
+     PF_EXAMPLES({"grad u = (0 3; 1 0), mu = 3", 2, (double[]){3}, (double[]){0, 3, 1, 0, 3}, (double[]){48, 48},
+                  1e-15}))
+{
+    LANES (i)
+        dissipated[i] = dissipation[i] = F(strain_squared)(b, grad_u[0][0], i) * mu[i];
+}
 
 /* --- integrals over the fluid --- */
 
-static const pf_term term_kinetic_energy = {
-    SHOWS(kinetic_energy),
-    .where = PF_FLUID,
-    .doc = "\\frac12\\rho\\,|u|^2",
-    PF_IN(VELOCITY, PF_TAKES_DENSITY),
-    PF_OUT(INTEGRAL("kinetic_energy", PF_SCALAR, "J", "kinetic energy of the fluid")),
-    PF_PARAMS(pf_fluid, PF_DENSITY(pf_fluid)),
-    PF_EXAMPLES({"u = (3, 4), rho = 2", 2, density_2, (double[]){3, 4, 2}, (double[]){25}, 1e-15}),
-};
+TERM(kinetic_energy, PF_FLUID, IN(u, rho),
+     OUT(INTEGRAL(kinetic_energy, SCALAR, "J", "kinetic energy of the fluid")), PARAMS(DENSITY), SHOWN,
+     .doc = "\\frac12\\rho\\,|u|^2",
+     PF_EXAMPLES({"u = (3, 4), rho = 2", 2, (double[]){2}, (double[]){3, 4, 2}, (double[]){25}, 1e-15}))
+{
+    LANES (i) {
+        kinetic_energy[i] = 0;
+        EACH (a)
+            kinetic_energy[i] += 0.5 * rho[i] * u[a][i] * u[a][i];
+    }
+}
 
-static const pf_term term_enstrophy = {
-    SHOWS(enstrophy),
-    .where = PF_FLUID,
-    .doc = "\\frac12\\,|\\nabla\\times u|^2",
-    PF_IN(VELOCITY_GRADIENT),
-    PF_OUT(INTEGRAL("enstrophy", PF_SCALAR, "m^3/s^2", "half the integral of the vorticity squared")),
-    PF_EXAMPLES({"grad u = (0 3; 1 0)", 2, NULL, (double[]){0, 3, 1, 0}, (double[]){2}, 1e-15}),
-};
+TERM(enstrophy, PF_FLUID, IN(grad_u),
+     OUT(INTEGRAL(enstrophy, SCALAR, "m^3/s^2", "half the integral of the vorticity squared")), PARAMS(), SHOWN,
+     .doc = "\\frac12\\,|\\nabla\\times u|^2",
+     PF_EXAMPLES({"grad u = (0 3; 1 0)", 2, NULL, (double[]){0, 3, 1, 0}, (double[]){2}, 1e-15}))
+{
+    LANES (i) {
+        enstrophy[i] = 0;
+        EACH (p)
+            for (uint32_t q = p + 1; q < DIM; q++) {
+                const NUM w = grad_u[q][p][i] - grad_u[p][q][i];
+
+                enstrophy[i] += 0.5 * w * w;
+            }
+    }
+}
 
 /* --- integrals over boundaries; the normal points out of the domain --- */
 
-static const pf_term term_flow_rate = {
-    SHOWS(flow_rate),
-    .where = PF_FACET,
-    .doc = "u\\cdot n",
-    PF_IN(VELOCITY),
-    PF_OUT(INTEGRAL("flow_rate", PF_SCALAR, "m^3/s", "volume that flows out through the boundary")),
-};
+/* a . n at lane i */
+static inline NUM F(through)(const pf_batch *b, const NUM *vector, uint32_t i)
+{
+    NUM sum = 0;
 
-static const pf_term term_mean_pressure = {
-    SHOWS(mean_pressure),
-    .where = PF_FACET,
-    .doc = "p,\\quad 1",
-    PF_IN(PRESSURE),
-    PF_OUT(INTEGRAL("pressure", PF_SCALAR, "N", "integral of the pressure, over the area it is the mean"),
-           INTEGRAL("area", PF_SCALAR, "m^2", "area of the boundary")),
-    PF_PARAMS(pf_fluid, TRUE_PRESSURE),
-};
+    EACH (k)
+        sum += AT(vector, k) * AT(b->normal, k);
+    return sum;
+}
 
-static const pf_term term_wall_shear = {
-    SHOWS(wall_shear),
-    .where = PF_FACET,
-    .doc = "-(1-n\\,n^T)\\,2\\mu D(u)\\,n",
-    PF_IN(VELOCITY_GRADIENT, PF_TAKES_VISCOSITY),
-    PF_OUT(INTEGRAL("wall_shear", PF_VECTOR, "N", "tangential force of the fluid on the boundary")),
-    VISCOUS,
-};
+/* The true pressure at lane i: a reduced one is without rho g.x. */
+static inline NUM F(true_pressure)(const pf_batch *b, NUM p, double density, const double *gravity, int reduced,
+                                   uint32_t i)
+{
+    for (uint32_t k = 0; reduced && k < DIM; k++)
+        p += density * gravity[k] * AT(b->x, k);
+    return p;
+}
 
-static const pf_term term_wall_force = {
-    SHOWS(wall_force),
-    .where = PF_FACET,
-    .doc = "-(2\\mu D(u)-p\\,I)\\,n",
-    PF_IN(VELOCITY_GRADIENT, PF_TAKES_VISCOSITY, PRESSURE),
-    PF_OUT(INTEGRAL("wall_force", PF_VECTOR, "N", "force of the fluid on the boundary, by its traction")),
-    PF_PARAMS(pf_fluid, PF_VISCOSITY(pf_fluid), TRUE_PRESSURE),
-};
+/* Component a of -2 mu D n at lane i */
+static inline NUM F(shear)(const pf_batch *b, const NUM *grad_u, NUM mu, uint32_t a, uint32_t i)
+{
+    NUM sum = 0;
 
-static const pf_term term_heat_flux = {
-    SHOWS(heat_flux),
-    .where = PF_FACET,
-    .doc = "-k\\,\\nabla T\\cdot n",
-    PF_IN({"grad_T", "T", PF_GRAD, PF_VECTOR}),
-    PF_OUT(INTEGRAL("heat_flow", PF_SCALAR, "W", "heat that is conducted out through the boundary")),
-    PF_PARAMS(conductor, PF_NUMBER(conductor, conductivity, "W/(m K)", "thermal conductivity",
-                                   .flags = PF_REQUIRED | PF_SHARED, PF_NOT_NEGATIVE)),
-};
+    EACH (k)
+        sum -= mu * (AT(grad_u, a, k) + AT(grad_u, k, a)) * AT(b->normal, k);
+    return sum;
+}
+
+TERM(flow_rate, PF_FACET, IN(u),
+     OUT(INTEGRAL(flow_rate, SCALAR, "m^3/s", "volume that flows out through the boundary")), PARAMS(), SHOWN,
+     .doc = "u\\cdot n")
+{
+    LANES (i)
+        flow_rate[i] = F(through)(b, u[0], i);
+}
+
+TERM(mean_pressure, PF_FACET, IN(p),
+     OUT(INTEGRAL(pressure, SCALAR, "N", "integral of the pressure, over the area it is the mean"),
+         INTEGRAL(area, SCALAR, "m^2", "area of the boundary")),
+     PARAMS(TRUE_PRESSURE), SHOWN, .doc = "p,\\quad 1")
+{
+    LANES (i) {
+        pressure[i] = F(true_pressure)(b, p[i], density, gravity, reduced_pressure, i);
+        area[i] = 1;
+    }
+}
+
+TERM(wall_shear, PF_FACET, IN(grad_u, mu),
+     OUT(INTEGRAL(wall_shear, VECTOR, "N", "tangential force of the fluid on the boundary")), PARAMS(VISCOSITY),
+     SHOWN, .doc = "-(1-n\\,n^T)\\,2\\mu D(u)\\,n")
+{
+    LANES (i) {
+        NUM normal = 0;
+
+        EACH (a) {
+            wall_shear[a][i] = F(shear)(b, grad_u[0][0], mu[i], a, i);
+            normal += wall_shear[a][i] * AT(b->normal, a);
+        }
+        EACH (a)
+            wall_shear[a][i] -= normal * AT(b->normal, a);
+    }
+}
+
+/* -(2 mu D - p) n, of a boundary and of a body */
+TERM(wall_force, PF_FACET, IN(grad_u, mu, p),
+     OUT(INTEGRAL(wall_force, VECTOR, "N", "force of the fluid on the boundary, by its traction")),
+     PARAMS(VISCOSITY, TRUE_PRESSURE), SHOWN, .doc = "-(2\\mu D(u)-p\\,I)\\,n")
+{
+    LANES (i) {
+        const NUM pressure = F(true_pressure)(b, p[i], density, gravity, reduced_pressure, i);
+
+        EACH (a)
+            wall_force[a][i] = F(shear)(b, grad_u[0][0], mu[i], a, i) + pressure * AT(b->normal, a);
+    }
+}
+
+TERM(heat_flux, PF_FACET, IN(grad_T),
+     OUT(INTEGRAL(heat_flow, SCALAR, "W", "heat that is conducted out through the boundary")), PARAMS(CONDUCTIVITY),
+     SHOWN, .doc = "-k\\,\\nabla T\\cdot n")
+{
+    LANES (i)
+        heat_flow[i] = -conductivity * F(through)(b, grad_T[0], i);
+}
 
 /* --- of each body --- */
 
-static const pf_term term_surface_force = {
-    SHOWS(surface_force),
-    .where = PF_SURFACE,
-    .doc = "-(2\\mu D(u)-p\\,I)\\,n,\\quad r\\times\\ldots",
-    PF_IN(VELOCITY_GRADIENT, PF_TAKES_VISCOSITY, PRESSURE),
-    PF_OUT(INTEGRAL("surface_force", PF_VECTOR, "N", "force of the fluid on the body, by its traction"),
-           INTEGRAL("surface_torque", PF_SPIN, "N m", "torque of the fluid on the body, by its traction")),
-    PF_PARAMS(pf_fluid, PF_VISCOSITY(pf_fluid), TRUE_PRESSURE),
-};
+TERM(surface_force, PF_SURFACE, IN(grad_u, mu, p),
+     OUT(INTEGRAL(surface_force, VECTOR, "N", "force of the fluid on the body, by its traction"),
+         INTEGRAL(surface_torque, SPIN, "N m", "torque of the fluid on the body, by its traction")),
+     PARAMS(VISCOSITY, TRUE_PRESSURE), SHOWN, .doc = "-(2\\mu D(u)-p\\,I)\\,n,\\quad r\\times\\ldots")
+{
+    LANES (i) {
+        const NUM pressure = F(true_pressure)(b, p[i], density, gravity, reduced_pressure, i);
 
-static const pf_term term_surface_area = {
-    SHOWS(surface_area),
-    .where = PF_SURFACE,
-    .doc = "1",
-    PF_OUT(INTEGRAL("surface_area", PF_SCALAR, "m^2", "surface of the body, as the quadrature sees it")),
-};
+        EACH (a)
+            surface_force[a][i] = F(shear)(b, grad_u[0][0], mu[i], a, i) + pressure * AT(b->normal, a);
+        EACH_SPIN (a)
+            surface_torque[a][i] = F(pf_moment)(b, surface_force[0], a, i);
+    }
+}
 
-static const pf_term term_covered_volume = {
-    SHOWS(covered_volume),
-    .where = PF_SOLID,
-    .doc = "1",
-    PF_OUT(INTEGRAL("covered_volume", PF_SCALAR, "m^3", "volume of the body, as the quadrature sees it")),
-};
+TERM(surface_area, PF_SURFACE, IN(),
+     OUT(INTEGRAL(surface_area, SCALAR, "m^2", "surface of the body, as the quadrature sees it")), PARAMS(), SHOWN,
+     .doc = "1")
+{
+    LANES (i)
+        surface_area[i] = 1;
+}
 
-static const pf_plugin show = {
-    PF_PLUGIN,
-    .min_minor = 4,
-    .name = "show",
-    .version = "1.0",
-    .author = "plugflow",
-    .license = "GPL-3.0-or-later",
-    .doc = "quantities of a flow for files and tables; each term by its own line",
-    PF_FIELDS(PF_FIELD_VELOCITY, PF_FIELD_PRESSURE,
-              {.name = "T", .unit = "K", .doc = "temperature", .shape = PF_SCALAR, .order = 2}),
-    PF_TERMS(&term_shear_rate, &term_vorticity, &term_dissipation, &term_kinetic_energy, &term_enstrophy,
-             &term_flow_rate, &term_mean_pressure, &term_wall_shear, &term_wall_force, &term_heat_flux,
-             &term_surface_force, &term_surface_area, &term_covered_volume),
-};
-PF_ENTRY(show)
+TERM(covered_volume, PF_SOLID, IN(),
+     OUT(INTEGRAL(covered_volume, SCALAR, "m^3", "volume of the body, as the quadrature sees it")), PARAMS(), SHOWN,
+     .doc = "1")
+{
+    LANES (i)
+        covered_volume[i] = 1;
+}
+
+PLUGIN(show, "quantities of a flow for files and tables; each term by its own line", FIELDS(u, p, T),
+       TERMS(shear_rate, vorticity, dissipation, kinetic_energy, enstrophy, flow_rate, mean_pressure, wall_shear,
+             wall_force, heat_flux, surface_force, surface_area, covered_volume),
+       .author = "plugflow", .license = "GPL-3.0-or-later", .min_minor = 4)
+#include PF_TWIN

@@ -6,7 +6,6 @@
 #include <string.h>
 
 enum { COARSEST = 500 }; /* blocks */
-#define STRENGTH 0.02
 
 /* The block of a field at a node that holds components part * b and on, or -1. */
 static int32_t block_at(const split *s, int64_t group, int field, int part)
@@ -126,7 +125,7 @@ static void take_scalar(const velocity_level *l, sparse *t, pool *p)
 }
 
 /* Prolongation from aggregates; the last `n_kept` blocks stay what they are. */
-static void from_aggregates(velocity_level *l, int32_t n_kept, pool *p)
+static void from_aggregates(velocity_level *l, int32_t n_kept, double strength, pool *p)
 {
     pool scratch = {0};
     uint8_t *mine;
@@ -140,7 +139,7 @@ static void from_aggregates(velocity_level *l, int32_t n_kept, pool *p)
         return;
     }
     memset(mine, 1, (size_t)(l->a.n - n_kept));
-    aggregate(&t, mine, STRENGTH, &q, &scratch);
+    aggregate(&t, mine, strength, &q, &scratch);
     l->prolong = (sparse){.n = l->a.n, .n_col = q.n_col + n_kept};
     TAKE(p, l->prolong.row, l->a.n + 1);
     if (!scratch.failed)
@@ -223,12 +222,13 @@ static void factor_level(velocity_level *l, pool *p)
         ilu_factor(&l->factors, 1);
 }
 
-int levels_create(levels *l, const split *s)
+int levels_create(levels *l, const split *s, const options *o)
 {
     int32_t n_kept = 0;
 
     memset(l, 0, sizeof *l);
     l->s = s;
+    l->o = o;
     for (int32_t i = s->f.n - 1; i >= 0 && s->a->unknowns->kind[s->group[i]] != PF_ROWS_OF_NODE; i--)
         n_kept++;
     TAKE(&l->memory, l->r, (int64_t)s->f.n * s->b);
@@ -240,7 +240,7 @@ int levels_create(levels *l, const split *s)
 
         if (n->a.n <= COARSEST)
             break;
-        from_aggregates(n, n_kept, &l->memory);
+        from_aggregates(n, n_kept, o->strength, &l->memory);
         if (l->memory.failed || n->prolong.n_col == n_kept || n->prolong.n_col > 0.8 * n->a.n)
             break;
         next_level(l, &n->a, n->active, &n->prolong, &n->restrict_);
@@ -309,7 +309,8 @@ void levels_correct(levels *l, const float *q, float *u)
     solve_coarse(l, &l->level[last]);
     for (int k = last - 1; k >= 0; k--) {
         apply_shares(&l->level[k].prolong, b, s->n_thread, l->level[k].active, l->level[k + 1].x, l->level[k].x);
-        relax(&l->level[k], s->n_thread);
+        for (int m = 0; m < l->o->sweeps; m++)
+            relax(&l->level[k], s->n_thread);
     }
     apply_shares(&l->prolong, b, s->n_thread, s->active, l->level[0].x, u);
 }

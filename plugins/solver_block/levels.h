@@ -8,6 +8,7 @@
 #include "aggregate.h"
 #include "coarse.h"
 #include "ilu.h"
+#include "options.h"
 #include "split.h"
 
 enum { LEVELS_MOST = 12 };
@@ -22,6 +23,7 @@ typedef struct velocity_level {
 
 typedef struct levels {
     const split *s;
+    const options *o;
     sparse prolong, restrict_; /* from level 0 to the velocities */
     float *r;                  /* [n blocks][b] */
     int n_level;
@@ -32,7 +34,7 @@ typedef struct levels {
 } levels;
 
 /* 0 or an enum pf_solver_status. */
-int levels_create(levels *l, const split *s);
+int levels_create(levels *l, const split *s, const options *o);
 /* u = P (coarse correction) P^T q. */
 void levels_correct(levels *l, const float *q, float *u);
 void levels_destroy(levels *l);

@@ -6,14 +6,6 @@
 
 enum { COARSEST = 600 };
 
-/* Residual to which the Laplacian is solved: a tenth is as good as exact, a cycle alone is not, as its coefficients
- * jump at surfaces. */
-#define INNER 0.1
-enum { INNER_MOST = 20 };
-
-/* Couplings below this, relative to the diagonals, are weak. */
-#define STRENGTH 0.02
-
 /* A constant pressure that is free leaves T singular. */
 #define SHIFT 1e-8
 
@@ -122,7 +114,7 @@ static int make_levels(pressure *q, const split *s)
         q->n_level++;
         if (l->a.n <= COARSEST || q->n_level == PRESSURE_LEVELS)
             break;
-        aggregate(&l->a, q->n_level == 1 ? s->active_p : NULL, STRENGTH, &l->prolong, p);
+        aggregate(&l->a, q->n_level == 1 ? s->active_p : NULL, q->o->strength, &l->prolong, p);
         if (p->failed)
             return PF_SOLVER_MEMORY;
         if (l->prolong.n_col == 0 || l->prolong.n_col > 0.8 * l->a.n)
@@ -138,12 +130,13 @@ static int make_levels(pressure *q, const split *s)
     return coarse_factor(&q->coarse, &q->level[q->n_level - 1].a, p);
 }
 
-int pressure_create(pressure *q, const split *s)
+int pressure_create(pressure *q, const split *s, const options *o)
 {
     pool *p = &q->memory;
 
     memset(q, 0, sizeof *q);
     q->s = s;
+    q->o = o;
     make_t(q, s);
     TAKE(p, q->r, s->n_p + 1);
     TAKE(p, q->z, s->n_p + 1);
@@ -198,7 +191,8 @@ static void cycle(pressure *q, int k)
         return;
     }
     memset(l->x, 0, (size_t)l->a.n * sizeof *l->x);
-    relax(l, 0);
+    for (int m = 0; m < q->o->sweeps; m++)
+        relax(l, 0);
     sparse_multiply(&l->a, 1, l->x, l->r);
     for (int32_t i = 0; i < l->a.n; i++)
         l->r[i] = l->b[i] - l->r[i];
@@ -208,7 +202,8 @@ static void cycle(pressure *q, int k)
     for (int32_t i = 0; i < l->a.n; i++)
         for (int64_t m = l->prolong.row[i]; m < l->prolong.row[i + 1]; m++)
             l->x[i] += l->prolong.value[m] * next[l->prolong.col[m]];
-    relax(l, 1);
+    for (int m = 0; m < q->o->sweeps; m++)
+        relax(l, 1);
 }
 
 /* Takes the mean off, where a constant pressure is free. */
@@ -269,7 +264,7 @@ static void solve_t(pressure *q, const double *b, double *x)
     memcpy(q->r, b, (size_t)n * sizeof *x);
     level_out(q, q->r);
     start = sqrt(dot(n, q->r, q->r));
-    for (int k = 0; k < INNER_MOST && start > 0; k++) {
+    for (int k = 0; k < q->o->inner_iterations && start > 0; k++) {
         double before = rz, a;
 
         memcpy(q->level[0].b, q->r, (size_t)n * sizeof *x);
@@ -287,7 +282,7 @@ static void solve_t(pressure *q, const double *b, double *x)
             x[i] += a * q->d[i];
             q->r[i] -= a * q->w[i];
         }
-        if (sqrt(dot(n, q->r, q->r)) <= INNER * start)
+        if (sqrt(dot(n, q->r, q->r)) <= q->o->inner * start)
             break;
     }
     for (int32_t i = 0; i < n; i++)

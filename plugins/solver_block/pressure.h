@@ -9,6 +9,7 @@
 
 #include "aggregate.h"
 #include "coarse.h"
+#include "options.h"
 #include "split.h"
 
 enum { PRESSURE_LEVELS = 12 };
@@ -20,6 +21,7 @@ typedef struct pressure_level {
 
 typedef struct pressure {
     const split *s;
+    const options *o;
     double sign; /* T is positive with this sign */
     sparse t;    /* of the fluid alone; the bodies' part is of low rank and applied as it stands */
     int n_level;
@@ -33,7 +35,7 @@ typedef struct pressure {
 } pressure;
 
 /* From the values of the split matrix; 0 or an enum pf_solver_status. */
-int pressure_create(pressure *q, const split *s);
+int pressure_create(pressure *q, const split *s, const options *o);
 /* p = about S^-1 r [n_p]. */
 void pressure_solve(pressure *q, const double *r, double *p);
 void pressure_destroy(pressure *q);

@@ -9,6 +9,7 @@
  * (pressure.h).  Nothing of it depends on the geometry but that nodes that are no vertices lie between vertices. */
 #include "ilu.h"
 #include "levels.h"
+#include "options.h"
 #include "pressure.h"
 #include "split.h"
 
@@ -17,12 +18,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Row sum over diagonal of F is about 2 where inertia prevails (the mass matrix), 0 where viscosity does; below
- * this the levels are worth their cost: nu / (sigma h^2) of about one half. */
-#define VISCOUS 0.12
-
 typedef struct block_solver {
     int n_thread;
+    options options;
     split split;
     ilu ilu;
     pressure pressure;
@@ -47,6 +45,15 @@ static int create(void **self, int n_thread, char *err, size_t nerr)
     if (!s)
         return fail(err, nerr, PF_SOLVER_MEMORY, "out of memory");
     s->n_thread = n_thread < 1 ? 1 : n_thread;
+    s->options = (options){
+        .viscous = VISCOUS, .strength = STRENGTH, .inner = INNER, .inner_iterations = INNER_MOST, .sweeps = SWEEPS};
+    return PF_SOLVER_OK;
+}
+
+static int configure(void *self, const void *params, char *err, size_t nerr)
+{
+    (void)err, (void)nerr;
+    ((block_solver *)self)->options = *(const options *)params;
     return PF_SOLVER_OK;
 }
 
@@ -111,7 +118,7 @@ static int is_viscous(const block_solver *s)
         for (int64_t k = f->row[i]; k < f->row[i + 1]; k++)
             sum += s->split.is_global[f->col[k]] ? 0 : f->value[k * b * b];
         n++;
-        viscous += fabs(sum * s->split.inverse_diagonal[(int64_t)i * b]) < VISCOUS;
+        viscous += fabs(sum * s->split.inverse_diagonal[(int64_t)i * b]) < s->options.viscous;
     }
     return 2 * viscous > n;
 }
@@ -125,10 +132,10 @@ static int setup(void *self, const pf_csr *a, char *err, size_t nerr)
     ilu_factor(&s->ilu, s->n_thread);
     pressure_destroy(&s->pressure);
     levels_destroy(&s->levels);
-    status = pressure_create(&s->pressure, &s->split);
+    status = pressure_create(&s->pressure, &s->split, &s->options);
     s->has_levels = is_viscous(s);
     if (!status && s->has_levels)
-        status = levels_create(&s->levels, &s->split);
+        status = levels_create(&s->levels, &s->split, &s->options);
     return status ? fail(err, nerr, status,
                          status == PF_SOLVER_MEMORY ? "out of memory" : "a coarse level could not be factored")
                   : PF_SOLVER_OK;
@@ -227,6 +234,19 @@ static void destroy(void *self)
     free(s);
 }
 
+static const pf_param params[] = {
+    PF_NUMBER(options, inner, "1", "part of the residual to which the Laplacian of the pressure is solved",
+              .dflt = INNER, .min = 1e-12, .max = 0.9),
+    {"inner_iterations", "1", "most iterations of it", PF_T_INT, 0, offsetof(options, inner_iterations),
+     .dflt = INNER_MOST, .min = 1, .max = 1000},
+    {"sweeps", "1", "of the smoothers on each level, before and after the coarser one", PF_T_INT, 0,
+     offsetof(options, sweeps), .dflt = SWEEPS, .min = 1, .max = 20},
+    PF_NUMBER(options, strength, "1", "couplings below this share of the diagonals are weak, and make no aggregate",
+              .dflt = STRENGTH, .min = 0, .max = 1),
+    PF_NUMBER(options, viscous, "1", "row sum over diagonal of the velocities below which they get coarser levels",
+              .dflt = VISCOUS, .min = 0, .max = 10),
+};
+
 static const pf_solver solver = {
     .size = sizeof(pf_solver),
     .major = PF_SOLVER_MAJOR,
@@ -241,6 +261,11 @@ static const pf_solver solver = {
     .flags = PF_SOLVER_APPROXIMATE | PF_SOLVER_SHARED_COLUMNS,
     .update = update,
     .multiply = multiply,
+    .n_param = sizeof params / sizeof *params,
+    .param_size = sizeof *params,
+    .params_bytes = sizeof(options),
+    .param = params,
+    .configure = configure,
 };
 
 __attribute__((visibility("default"))) const pf_solver *pf_solver_entry(char *err, size_t nerr);

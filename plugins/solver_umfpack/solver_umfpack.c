@@ -23,8 +23,16 @@
 /* Entries of L + U to bytes, with UMFPACK's working space; measured. */
 #define BYTES_PER_ENTRY (1.3 * 8)
 
+/* What a case may choose: solve { solver = "umfpack", ordering = "amd" }. */
+typedef struct options {
+    double pivot;
+    int ordering;
+} options;
+
+enum { ORDER_METIS, ORDER_AMD };
+
 typedef struct umfpack {
-    int n_thread;
+    int n_thread, ordering;
     pf_csr a;
     void *symbolic, *numeric;
     double flops;
@@ -209,7 +217,7 @@ static int order_unknowns(SuiteSparse_long n, SuiteSparse_long n_col, SuiteSpars
     (void)ai;
     if (n != a->n || n != n_col || !symmetric)
         return 0;
-    ordered = order_graph(a, perm);
+    ordered = u->ordering == ORDER_METIS && order_graph(a, perm);
     cholmod_l_start(&cm);
     cm.nmethods = 1;
     cm.method[0].ordering = ordered ? CHOLMOD_GIVEN : CHOLMOD_AMD; /* AMD needs less memory, and leaves more fill */
@@ -244,6 +252,17 @@ static int create(void **self, int n_thread, char *err, size_t nerr)
     u->control[UMFPACK_ORDERING] = UMFPACK_ORDERING_USER;
     u->control[UMFPACK_SINGLETONS] = 0;
     u->control[UMFPACK_IRSTEP] = 0;
+    return PF_SOLVER_OK;
+}
+
+static int configure(void *self, const void *params, char *err, size_t nerr)
+{
+    const options *o = params;
+    umfpack *u = self;
+
+    (void)err, (void)nerr;
+    u->ordering = o->ordering;
+    u->control[UMFPACK_SYM_PIVOT_TOLERANCE] = o->pivot;
     return PF_SOLVER_OK;
 }
 
@@ -315,6 +334,14 @@ static void destroy(void *self)
     free(u);
 }
 
+static const char *const orderings[] = {"metis", "amd", NULL};
+static const pf_param params[] = {
+    {"ordering", "1", "by which the unknowns are eliminated: nested dissection, or least degree", PF_T_CHOICE, 0,
+     offsetof(options, ordering), .choice = orderings},
+    PF_NUMBER(options, pivot, "1", "least share of the largest entry of its column that a diagonal pivot has",
+              .dflt = UMFPACK_DEFAULT_SYM_PIVOT_TOLERANCE, .min = 0, .max = 1),
+};
+
 static const pf_solver solver = {
     .size = sizeof(pf_solver),
     .major = PF_SOLVER_MAJOR,
@@ -326,6 +353,11 @@ static const pf_solver solver = {
     .setup = setup,
     .solve = solve,
     .destroy = destroy,
+    .n_param = sizeof params / sizeof *params,
+    .param_size = sizeof *params,
+    .params_bytes = sizeof(options),
+    .param = params,
+    .configure = configure,
 };
 
 __attribute__((visibility("default"))) const pf_solver *pf_solver_entry(char *err, size_t nerr);

@@ -34,8 +34,8 @@ static const struct pair {
     {"w_convection", "rho*dot(dot(grad(u), u), v)", "plugins/momentum/momentum.so", "convection"},
     {"w_viscous", "mu*inner(grad(u) + transpose(grad(u)), grad(v))", "plugins/momentum/momentum.so", "viscous"},
     {"w_pressure", "-p*div(v)", "plugins/momentum/momentum.so", "pressure_gradient"},
-    {"w_diffusion", "conductivity*dot(grad(T), grad(s))", "plugins/heat/heat.so", "diffusion"},
-    {"w_buoyancy", "density*expansion*(T - reference_temperature)*dot(g, v)", "plugins/heat/heat.so", "buoyancy"},
+    {"w_diffusion", "k = property(conductivity); k*dot(grad(T), grad(s))", "plugins/heat/heat.so", "diffusion"},
+    {"w_buoyancy", "rho*expansion*(T - reference_temperature)*dot(g, v)", "plugins/heat/heat.so", "buoyancy"},
     {"w_power_law",
      "D = sym(grad(u)); rate2 = eps^2 + 2*inner(D, D); mu_n = consistency*rate2^(0.5*(n - 1)); "
      "inner(2*mu_n*D - p*I, grad(v))",
@@ -119,7 +119,7 @@ static void open_side(side *s, const pf_term *t, int dim)
     for (uint32_t k = 0; k < t->n_in; k++) {
         s->in[k] = rows(MOST_COMPONENTS);
         for (int i = 0; i < components(t->in[k].shape, dim) * POINTS; i++)
-            s->in[k][i] = number_of(t->in[k].name, i);
+            s->in[k][i] = number_of(t->in[k].eval == PF_PROPERTY ? t->in[k].field : t->in[k].name, i);
     }
     for (uint32_t o = 0; o < t->n_out; o++) {
         s->out[o] = rows(MOST_COMPONENTS);
@@ -176,14 +176,16 @@ static void jacobian(side *s, int by_complex_step)
     }
 }
 
-static uint32_t slot_of(const pf_slot *slot, uint32_t n, const char *name)
+/* The slot that is called like `like`, or holds the same property. */
+static uint32_t slot_of(const pf_slot *slot, uint32_t n, const pf_slot *like)
 {
     uint32_t k = 0;
 
-    while (k < n && strcmp(slot[k].name, name) != 0)
+    while (k < n && strcmp(slot[k].name, like->name) != 0 &&
+           !(like->eval == PF_PROPERTY && slot[k].eval == PF_PROPERTY && strcmp(slot[k].field, like->field) == 0))
         k++;
     if (k == n)
-        fail_msg("the generated term has no slot %s", name);
+        fail_msg("the generated term has no slot %s", like->name);
     return k;
 }
 
@@ -210,14 +212,14 @@ static void compare_all(const struct pair *p, side *made, side *hand)
     jacobian(hand, 1);
     assert_int_equal(made->t->n_in, hand->t->n_in);
     for (uint32_t o = 0; o < hand->t->n_out; o++) {
-        const uint32_t oo = slot_of(made->t->out, made->t->n_out, hand->t->out[o].name);
+        const uint32_t oo = slot_of(made->t->out, made->t->n_out, &hand->t->out[o]);
         const int n_o = components(hand->t->out[o].shape, hand->dim);
         char what[200];
 
         snprintf(what, sizeof what, "%s %dD, output %s", p->name, hand->dim, hand->t->out[o].name);
         compare(what, made->out[oo], hand->out[o], n_o * POINTS);
         for (uint32_t k = 0; k < hand->t->n_in; k++) {
-            const uint32_t kk = slot_of(made->t->in, made->t->n_in, hand->t->in[k].name);
+            const uint32_t kk = slot_of(made->t->in, made->t->n_in, &hand->t->in[k]);
 
             snprintf(what, sizeof what, "%s %dD, d %s / d %s", p->name, hand->dim, hand->t->out[o].name,
                      hand->t->in[k].name);

@@ -61,6 +61,24 @@ static void its_keys_are_checked_as_those_of_terms(void **state)
     says(with_channel("check", "s/colamd/colamb/"), EXIT_CASE, "colamd");
 }
 
+static void solvers_of_plugflow_have_keys(void **state)
+{
+    static char by_metis[sizeof output];
+
+    (void)state;
+    says(with_channel("check", "s/solver = .*}/solver = \"umfpack\" }/"), 0, "solver_umfpack; factors (predicted)");
+    memcpy(by_metis, strstr(output, "factors (predicted)"), 40);
+    says(with_channel("check", "s/solver = .*}/solver = \"umfpack\", ordering = \"metis\" }/"), 0, by_metis);
+    says(with_channel("check", "s/solver = .*}/solver = \"umfpack\", ordering = \"amd\" }/"), 0, "solver_umfpack");
+    assert_null(strstr(output, by_metis));
+    says(with_channel("check", "s/solver = .*}/solver = \"umfpack\", pivot = 2 }/"), EXIT_CASE,
+         "it must lie between 0 and 1");
+    says(with_channel("run --out $d/out", "s/solver = .*}/solver = \"block\", sweeps = 2, inner = 0.01 }/"), 0,
+         "converged in ");
+    says(with_channel("check", "s/solver = .*}/solver = \"block\", sweeps = 0 }/"), EXIT_CASE,
+         "it must lie between 1 and 20");
+}
+
 static void unknown_solver_is_an_error_of_the_case(void **state)
 {
     (void)state;
@@ -73,6 +91,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solver_of_the_case_solves),
         cmocka_unit_test(its_keys_are_checked_as_those_of_terms),
+        cmocka_unit_test(solvers_of_plugflow_have_keys),
         cmocka_unit_test(unknown_solver_is_an_error_of_the_case),
     };
 
