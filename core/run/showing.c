@@ -15,8 +15,7 @@ struct showing {
     shown shown;
     int evaluated, projected; /* of the solution that r->x is */
     int rated;                /* some term reads rates        */
-    double *dot;              /* [n_dof] */
-    double *history;          /* [n_dof] */
+    double *dot, *history;    /* [n_dof] */
     double *row;              /* of integrals.csv */
     moving_frame frame;       /* paths of rates near moving bodies; memory is that of now */
 };
