@@ -62,6 +62,16 @@ static void print_properties(const description *d)
         }
 }
 
+/* Data that the terms ask for, and that the case leaves out. */
+static void print_no_data(const term_use *use, int n)
+{
+    for (int i = 0; i < n; i++)
+        for (uint32_t k = 0; k < use[i].term->n_in; k++)
+            if (use[i].no_data >> k & 1)
+                printf("  %s of %s.%s: not given, 0\n", use[i].term->in[k].name, use[i].plugin->d.name,
+                       use[i].term->name);
+}
+
 /* Which linear solver, and its predicted price. */
 static void print_solver(const linear *l)
 {
@@ -113,6 +123,9 @@ static int check(const problem *p, const linear *l, int json)
         printf("    %s\n", replaced);
     }
     print_properties(&p->description);
+    print_no_data(p->description.use, p->description.n_use);
+    print_no_data(p->description.law.use, p->description.law.n);
+    print_no_data(p->description.shown.use, p->description.shown.n);
     print_conditions(p);
     printf("  unknowns: %lld, of which %lld are free; matrix: %lld entries, %.3g MB\n", (long long)p->space.n_dof,
            (long long)p->space.n_free, (long long)p->space.row[p->space.n_free], matrix / 1e6);

@@ -100,7 +100,7 @@ static void add_slot(described_keys *l, const pf_term *t, const pf_slot *s)
         k.doc = s->doc                      ? s->doc
                 : t->flags & PF_BY_BOUNDARY ? "acts where a boundary gives it"
                                             : "given by the case";
-        text_add(&k.standard, t->flags & PF_BY_BOUNDARY ? "off" : "0");
+        text_add(&k.standard, t->flags & PF_BY_BOUNDARY ? "off" : s->flags & PF_REQUIRED ? "required" : "0");
         text_add(&k.range, "%s, or a function of it", term_shape_name(s->shape));
     }
     add(l, &k, t->name);

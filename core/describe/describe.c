@@ -20,7 +20,9 @@ int describe(description *d, case_file *c, registry *r, warning_list *w, error *
     TRY(describe_settings(d, r, err));
     TRY(describe_shown(d, err));
     TRY(describe_output(d, r, err));
+    describe_check_replaced(d);
     describe_check_formulation(d);
+    describe_check_exchange(d);
     describe_check_box(d);
     describe_check_terms(d);
     describe_check_kept(d);

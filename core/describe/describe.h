@@ -226,6 +226,10 @@ void describe_check_terms(const description *d);
 /* Bodies and the terms that move them and couple them with the flow. */
 void describe_check_formulation(description *d);
 void describe_check_box(const description *d);
+/* Terms that go by a number which a replaced term would have shared with them (check_replaced.c). */
+void describe_check_replaced(description *d);
+/* Forces on bodies that are not counted, fields without a tie (check_exchange.c). */
+void describe_check_exchange(description *d);
 
 /* --- what they share --- */
 

@@ -106,7 +106,13 @@ static int check_replaced(description *d, registry *r, const term_use *u, const 
     error ignored;
 
     snprintf(plugin, sizeof plugin, "%.*s", (int)(dot ? dot - name : (long)n), name);
-    if (dot && (!registry_knows(r, plugin, &near) || registry_equation(r, plugin, &p, &ignored)))
+    if (dot && !registry_knows(r, plugin, &near)) {
+        if (near)
+            describe_warn(d, line, NULL, "%s.%s says that it replaces \"%.*s\", and there is no plugin \"%s\"%s",
+                          u->plugin->d.name, u->term->name, (int)n, name, plugin, text_hint(near).s);
+        return 1;
+    }
+    if (dot && registry_equation(r, plugin, &p, &ignored))
         return 1;
     for (uint32_t i = 0; dot && i < p->d.n_term; i++)
         if (strlen(p->term[i].name) == (size_t)(name + n - dot - 1) &&

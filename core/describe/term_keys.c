@@ -83,19 +83,32 @@ static int read_params(description *d, reader *own, reader *fluid, term_use *u, 
     return 0;
 }
 
+static void missing_data(description *d, const case_block *own, const pf_slot *s)
+{
+    const char *doc = s->doc ? s->doc : "a value or a function of position and time";
+    const int unit = s->unit && strcmp(s->unit, "1") != 0;
+
+    case_wrong(d->c, own, NULL, "term \"%s\": \"%s\" is missing (%s%s%s)", own->name, s->name, doc,
+               unit ? ", " : "", unit ? s->unit : "");
+}
+
 /* PF_DATA slots of terms on cells: keys of the term's line. */
 static int read_data(description *d, reader *own, term_use *u, error *err)
 {
     for (uint32_t k = 0; k < u->term->n_in; k++) {
         const pf_slot *s = &u->term->in[k];
+        int status;
         value *v;
 
         if (s->eval != PF_DATA || (u->term->flags & PF_BY_BOUNDARY))
             continue;
         ARENA_NEW(&d->memory, v, 1, err);
         v->n = term_components(s->shape, d->dim);
-        describe_value(own, s->name, "a value or a function of position and time", v->n, d->dim, v);
+        status = describe_value(own, s->name, "a value or a function of position and time", v->n, d->dim, v);
         u->data[k] = v;
+        u->no_data |= status == 0 ? 1u << k : 0;
+        if (status == 0 && (s->flags & PF_REQUIRED) && !reader_misspelt(own, s->name))
+            missing_data(d, own->b, s);
     }
     return 0;
 }

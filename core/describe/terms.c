@@ -184,6 +184,23 @@ static int switch_on(description *d, reader *own, const term_plugin *plugin, con
     return 0;
 }
 
+/* A key of the line that two of its terms take as different things. */
+static void check_meaning(description *d, const reader *own, const term_use *a, const term_use *b)
+{
+    for (uint32_t i = 0; i < a->term->n_param; i++) {
+        const pf_param *p = &a->term->param[i], *q = describe_param(b, p->name);
+        const char *what = q ? term_key_differs(p, q) : NULL;
+
+        if (what && reader_has(own, p->name))
+            case_wrong(
+                d->c, own->b, p->name,
+                "%s: \"%s\" means two things here, of another %s in %s (%s) than in %s (%s): switch each on by a "
+                "line of its own, as in term \"%s.%s\" {}",
+                own->what, p->name, what, a->term->name, p->doc, b->term->name, q->doc, b->plugin->d.name,
+                b->term->name);
+    }
+}
+
 /* What the terms of a line say about their parameters, and whether one is on already. */
 static void check_line(description *d, const reader *own, const line_terms *mine)
 {
@@ -194,6 +211,9 @@ static void check_line(description *d, const reader *own, const line_terms *mine
         if (u->term->check && u->term->check(u->params, why, sizeof why))
             case_wrong(d->c, own->b, NULL, "%s: %s", own->what, why);
     }
+    for (int i = 0; i < mine->n; i++)
+        for (int k = 0; k < i; k++)
+            check_meaning(d, own, mine->use[k], mine->use[i]);
     for (int i = 0; i < mine->n; i++)
         if (!describe_check_twice(d, own, mine->use[i]))
             return;

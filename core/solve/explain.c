@@ -129,7 +129,8 @@ static int find_constant(newton_system *s, int *component)
     return -1;
 }
 
-void explain_singular(newton_system *s, error *err)
+/* Which unknowns the matrix leaves open. */
+static void explain_open(newton_system *s, error *err)
 {
     static const char *const what[] = {"no equation contains ", "no unknown stands in the equation of "};
     const space *sp = s->space;
@@ -163,4 +164,16 @@ void explain_singular(newton_system *s, error *err)
             err->text + at, room,
             ": all unknowns have equations and stand in some, but some combination of unknowns is left open; is "
             "a coefficient zero, or a boundary condition missing?");
+}
+
+void explain_singular(newton_system *s, error *err)
+{
+    const char *said = s->linear.said;
+    size_t at;
+
+    explain_open(s, err);
+    at = strlen(err->text);
+    if (*said)
+        snprintf(err->text + at, sizeof err->text - at, " (linear solver %s: %s)", linear_solver(&s->linear)->name,
+                 said);
 }

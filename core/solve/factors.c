@@ -8,6 +8,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 
 /* Part of the largest right-hand side of a run below which a solution is a correction in the last digits. */
 #define ROUND_OFF 1e-8
@@ -72,6 +73,7 @@ int linear_set_up(linear *l, error *err)
         band_remember(&l->band, status == PF_SOLVER_OK && l->at == METHOD_DIRECT, &l->stats.cost, &l->a);
     if (status == PF_SOLVER_SINGULAR) {
         error_set(err, ERR_CONVERGE, "the linear system is singular");
+        snprintf(l->said, sizeof l->said, "%s", why);
         err->retry = 1;
         return ERR_CONVERGE;
     }

@@ -59,6 +59,7 @@ typedef struct linear {
     double *b, *dx; /* [n] room of the refinement */
     double *r;      /* [n] b - A x of the last solve */
     linear_stats stats;
+    char said[400];         /* by the solver in use of the last matrix that was singular */
     warning_list *warnings; /* NULL: nobody listens */
     arena memory;           /* of this pattern */
 } linear;

@@ -195,6 +195,7 @@ int term_adopt(const pf_plugin *d, const char *path, arena *memory, term_plugin 
             if (strcmp(out->term[k].name, t->name) == 0)
                 return check_wrong(err, &s, "two terms have this name");
     }
+    TRY(check_keys(out, path, err));
     out->path = path;
     return 0;
 }

@@ -16,5 +16,7 @@ int check_wrong(error *err, const check_subject *s, const char *fmt, ...) __attr
 int check_is_name(const char *s);
 /* All slots of a term, and what it is with them (check_slots.c). */
 int check_slots(const term_plugin *p, const pf_term *t, const check_subject *s, error *err);
+/* The keys of all terms of a plugin (check_keys.c). */
+int check_keys(const term_plugin *p, const char *path, error *err);
 
 #endif

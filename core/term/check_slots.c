@@ -154,6 +154,8 @@ static int check_list(const term_plugin *p, const pf_slot *slot, uint32_t n, uin
                                slot[i].eval);
         if (slot[i].shape < PF_SCALAR || slot[i].shape > PF_TENSOR_GRAD)
             return check_wrong(err, s, "%s slot \"%s\": unknown shape %u", side, slot[i].name, slot[i].shape);
+        if (slot[i].eval != PF_DATA && (slot[i].flags & PF_REQUIRED))
+            return check_wrong(err, s, "%s slot \"%s\" has PF_REQUIRED, which is for PF_DATA", side, slot[i].name);
         if (slot[i].eval == PF_DATA)
             continue;
         TRY(term_slot_field(&slot[i]) || slot[i].eval == PF_STATE ? check_field(p, &slot[i], where, is_out, s, err)
@@ -174,6 +176,10 @@ static const char *later(const pf_term *t, uint32_t *minor)
     for (uint32_t k = 0; k < t->n_in + t->n_out; k++) {
         const pf_slot *s = k < t->n_in ? &t->in[k] : &t->out[k - t->n_in];
 
+        if (s->eval == PF_DATA && (s->flags & PF_REQUIRED)) {
+            *minor = 4;
+            return "PF_REQUIRED of data";
+        }
         if (s->eval > PF_LAPLACE || s->shape > PF_SPIN || (t->where == PF_PAIR && s->eval == PF_VALUE)) {
             *minor = 4;
             return s->eval > PF_LAPLACE ? term_eval_name(s->eval) : "a slot";

@@ -237,6 +237,19 @@ static int not_found(const registry *r, const struct wanted *w, error *err)
     return status;
 }
 
+/* Whether a loaded file is what a case calls `name`: solvers and readers of meshes go by the name of their file. */
+static int goes_by(const term_file *f, const char *name)
+{
+    const char *file = strrchr(f->path, '/') ? strrchr(f->path, '/') + 1 : f->path;
+    const size_t n = strlen(name);
+
+    if (f->plugin.path)
+        return strcmp(f->plugin.d.name, name) == 0;
+    if (f->solver && strncmp(name, "solver_", 7) == 0 && strcmp(f->solver->name, name + 7) == 0)
+        return 1;
+    return strncmp(file, name, n) == 0 && strcmp(file + n, ".so") == 0;
+}
+
 static int find(registry *r, const char *name, const char *kind, term_file **out, error *err)
 {
     struct wanted *w = calloc(1, sizeof *w);
@@ -248,8 +261,7 @@ static int find(registry *r, const char *name, const char *kind, term_file **out
     each_file(r, visit_wanted, w);
     *out = NULL;
     for (int i = 0; i < r->n_file && !*out; i++)
-        if (!r->file[i].refused && r->file[i].plugin.path && strcmp(r->file[i].plugin.d.name, name) == 0 &&
-            strcmp(kind, "equation") == 0)
+        if (!r->file[i].refused && strcmp(r->file[i].kind, kind) == 0 && goes_by(&r->file[i], name))
             *out = &r->file[i];
     if (*out && *w->path) {
         char real[PATH_MAX];
@@ -301,9 +313,10 @@ int registry_knows(registry *r, const char *name, const char **near)
     w->name = name;
     each_file(r, visit_wanted, w);
     for (int i = 0; i < r->n_file; i++)
-        if (!r->file[i].refused && r->file[i].plugin.path) {
-            known |= strcmp(r->file[i].plugin.d.name, name) == 0;
-            seen[n++] = r->file[i].plugin.d.name;
+        if (!r->file[i].refused) {
+            known |= goes_by(&r->file[i], name);
+            if (r->file[i].plugin.path)
+                seen[n++] = r->file[i].plugin.d.name;
         }
     known |= *w->path != 0;
     for (int i = 0; i < w->n_seen; i++)

@@ -85,6 +85,10 @@ const char *term_eval_name(uint32_t eval);
 /* The field that the plugin declares under this name, or NULL. */
 const pf_field *term_field(const term_plugin *p, const char *name);
 
+/* What two parameters of one name differ in, "unit", "type" or "default", or NULL.  Ranges may: each term has its
+ * own. */
+const char *term_key_differs(const pf_param *a, const pf_param *b);
+
 /* Fills the parameters of a term with their defaults. */
 void term_defaults(const pf_term *t, void *params);
 
@@ -124,6 +128,7 @@ typedef struct term_use {
     const struct term_use
         *law[TERM_MAX_SLOTS]; /* for PF_PROPERTY inputs: who publishes it; NULL: see term_number */
     uint32_t given, missing;  /* bit k: parameter k stands in the case; it had to, and does not */
+    uint32_t no_data;         /* bit k: the data of input k stand nowhere in the case and are 0 */
 } term_use;
 
 /* The term's own parameter of the name and shape of a PF_PROPERTY input, which is its value where nobody publishes

@@ -93,14 +93,26 @@ static int is_mentioned(const expr *e, const symbol *s)
     return m;
 }
 
-/* Leaves out slots that are named only inside of others, as u in grad(u). */
+/* A key is one if the form has it, or a property whose number it is. */
+static int is_needed(const form *f, const expr *whole, const symbol *s)
+{
+    int needed = is_mentioned(whole, s);
+
+    for (int i = 0; i < f->n_symbol; i++)
+        needed |= f->symbol[i]->key == s && is_mentioned(whole, f->symbol[i]);
+    return needed;
+}
+
+/* Leaves out slots that are named only inside of others, as u in grad(u), and keys that nothing needs. */
 static void leave_out_unused(form *f, const expr *whole)
 {
+    symbol *kept[FORM_MAX_SYMBOLS];
     int n = 0;
 
     for (int i = 0; i < f->n_symbol; i++)
-        if (is_mentioned(whole, f->symbol[i]) || (f->symbol[i]->kind != SYM_SLOT && f->symbol[i]->kind != SYM_TEST))
-            f->symbol[n++] = f->symbol[i];
+        if (f->symbol[i]->kind == SYM_PART || f->symbol[i]->kind == SYM_POINT || is_needed(f, whole, f->symbol[i]))
+            kept[n++] = f->symbol[i];
+    memcpy(f->symbol, kept, (size_t)n * sizeof *kept);
     f->n_symbol = n;
 }
 
@@ -322,6 +334,8 @@ void emit_source(form *f, const tree *t, text *source)
     take_derivatives(s);
     text_add(&draft, "/* %s\n *\n *     %s\n *\n * Written by plugflow new --weak; yours to change. */\n",
              f->request->name, f->request->form);
+    if (strcmp(f->request->where, "PF_SOLID") == 0 && (form_named(f, "rho") || form_named(f, "density")))
+        text_add(&draft, "/* The density here is the fluid's; that of the body is b->density[i]. */\n");
     text_add(&draft, "#include <plugflow/term.h>\n\n");
     for (int i = 0; i < f->n_field; i++)
         if (f->field[i].order)

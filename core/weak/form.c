@@ -46,6 +46,51 @@ const char *form_text(form *f, const char *fmt, ...)
     return strcpy(form_room(f, strlen(s) + 1, 1), s);
 }
 
+void form_check_name(form *f, const char *name, int column)
+{
+    static const char *const taken[] = {"auto",      "break",     "case",
+                                        "char",      "const",     "continue",
+                                        "default",   "do",        "double",
+                                        "else",      "enum",      "extern",
+                                        "float",     "for",       "goto",
+                                        "if",        "inline",    "int",
+                                        "long",      "register",  "return",
+                                        "short",     "signed",    "sizeof",
+                                        "static",    "struct",    "switch",
+                                        "typedef",   "union",     "void",
+                                        "while",     "restrict",  "unsigned",
+                                        "volatile",  "complex",   "asm",
+                                        "typeof",    "unix",      "linux",
+                                        "sqrt",      "exp",       "log",
+                                        "sin",       "cos",       "tan",
+                                        "tanh",      "atan",      "abs",
+                                        "fabs",      "pow",       "max",
+                                        "min",       "creal",     "cimag",
+                                        "grad",      "div",       "dt",
+                                        "old",       "lap",       "test",
+                                        "dot",       "inner",     "outer",
+                                        "cross",     "trace",     "sym",
+                                        "vector",    "data",      "property",
+                                        "transpose", "i",         "b",
+                                        "in",        "out",       "jac",
+                                        "NUM",       "F",         "LD",
+                                        "DIM",       "KEYS",      "DENSITY",
+                                        "NULL",      "NAN",       "EOF",
+                                        "GRAVITY",   "VISCOSITY", "INFINITY",
+                                        "HUGE_VAL",  "M_PI",      "stdin",
+                                        "stdout",    "stderr",    "REDUCED_PRESSURE",
+                                        "uint32_t"};
+
+    for (size_t k = 0; k < sizeof taken / sizeof *taken; k++)
+        if (strcmp(taken[k], name) == 0)
+            form_fail(f, column,
+                      "\"%s\" is not possible as a name: C, the generated code or a function of forms has it "
+                      "already; choose another one",
+                      name);
+    if (strncmp(name, "pf_", 3) == 0 || strncmp(name, "PF_", 3) == 0)
+        form_fail(f, column, "\"%s\" is not possible as a name: pf_ and PF_ belong to plugflow", name);
+}
+
 static const weak_field standard[] = {{"u", "v", 1, 0, "mesh"},          {"p", "q", 0, 0, "mesh"},
                                       {"T", "s", 0, 0, "mesh"},          {"c", "test_c", 0, 0, "mesh"},
                                       {"phi", "test_phi", 0, 0, "mesh"}, {"U", "V", 1, 0, "particle"},
@@ -73,6 +118,7 @@ static void add_field(form *f, const char *s, int n)
         form_fail(f, -1, "--fields \"%.*s\": expected name:scalar|vector:order with order 1 or 2", n, s);
     if (form_field(f, name))
         form_fail(f, -1, "--fields: \"%s\" is a standard field; leave its shape out", name);
+    form_check_name(f, name, -1);
     if (f->n_field == WEAK_MAX_FIELDS)
         form_fail(f, -1, "more than %d fields", WEAK_MAX_FIELDS);
     is_vector = strcmp(shape, "vector") == 0;

@@ -25,8 +25,10 @@ typedef struct symbol {
     int rank;           /* 0 scalar, 1 vector, 2 tensor                   */
     int moves, is_rate; /* an unknown, or a property, which may depend on unknowns; d/dt of one */
     int is_property;
-    const weak_field *field; /* of slots                                       */
-    const tree *part;        /* of SYM_PART: a name that the form gives        */
+    const struct symbol *key; /* of a property: the number that the case gives where nobody publishes it */
+    int column, is_used;      /* of SYM_PART: where it begins, and whether anything speaks of it         */
+    const weak_field *field;  /* of slots                                       */
+    const tree *part;         /* of SYM_PART: a name that the form gives        */
 } symbol;
 
 enum { FORM_MAX_SYMBOLS = 64 };
@@ -52,6 +54,8 @@ void form_fields(form *f);
 const weak_field *form_field(const form *f, const char *name);
 /* The symbol of that kind and name, made if it is new. */
 symbol *form_symbol(form *f, enum symbol_kind kind, const char *name, int rank);
+/* Refuses a name that C, term.h or the generated code has for something else. */
+void form_check_name(form *f, const char *name, int column);
 /* The one of this name, or NULL. */
 symbol *form_named(const form *f, const char *name);
 

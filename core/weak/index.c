@@ -25,6 +25,8 @@ static expr *make(form *f, enum expr_kind kind, int n)
 
 const expr *index_number(form *f, double v)
 {
+    if (!isfinite(v))
+        form_fail(f, -1, "a number that the form makes is not finite; write it out");
     expr *e = make(f, X_NUMBER, 0);
 
     e->number = v;

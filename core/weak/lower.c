@@ -3,6 +3,7 @@
  * From the tree of a form to its components. */
 #include "weak/form.h"
 
+#include <math.h>
 #include <string.h>
 
 static const expr *lower_dot(form *f, const tree *t, int i, int j)
@@ -59,6 +60,18 @@ static const expr *lower_name(form *f, const tree *t, int i, int j)
     return index_call(f, "", s, lower(f, s->part, -1, -1), NULL);
 }
 
+static const expr *lower_quotient(form *f, const tree *t, int i, int j)
+{
+    const expr *below = lower(f, t->arg[1], -1, -1), *e;
+
+    if (index_is_number(below, 0))
+        form_fail(f, t->column, "division by zero");
+    e = index_div(f, lower(f, t->arg[0], i, j), below);
+    if (e->kind == X_NUMBER && !isfinite(e->number))
+        form_fail(f, t->column, "the quotient is too large");
+    return e;
+}
+
 const expr *lower(form *f, const tree *t, int i, int j)
 {
     const tree *a = t->arg[0], *b = t->arg[1];
@@ -77,7 +90,7 @@ const expr *lower(form *f, const tree *t, int i, int j)
     if (strcmp(t->op, "*") == 0)
         return index_mul(f, lower(f, a, i, j), lower(f, b, i, j));
     if (strcmp(t->op, "/") == 0)
-        return index_div(f, lower(f, a, i, j), lower(f, b, i, j));
+        return lower_quotient(f, t, i, j);
     if (strcmp(t->op, "dot") == 0)
         return lower_dot(f, t, i, j);
     if (strcmp(t->op, "cross") == 0)

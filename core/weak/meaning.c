@@ -99,11 +99,12 @@ static symbol *of_point(form *f, const char *name)
 /* A property is a slot; where nobody publishes it, it is the key of that name, which the term lists, too. */
 static symbol *of_property(form *f, const char *slot, const char *entry, const char *key, const char *key_entry)
 {
-    symbol *s = form_symbol(f, SYM_SLOT, slot, 0);
+    symbol *s = form_symbol(f, SYM_SLOT, slot, 0), *number = form_symbol(f, SYM_REAL, key, 0);
 
     s->entry = entry;
     s->moves = s->is_property = 1;
-    form_symbol(f, SYM_REAL, key, 0)->entry = key_entry;
+    s->key = number;
+    number->entry = key_entry;
     return s;
 }
 
@@ -112,6 +113,8 @@ tree *meaning_of_name(form *f, const char *name, int column)
     const weak_field *field = form_field(f, name), *test = field_of_test(f, name);
     symbol *s = form_named(f, name);
 
+    if (s && s->kind == SYM_PART)
+        s->is_used = 1;
     if (s && (s->kind == SYM_PART || s->kind == SYM_VECTOR || (s->kind == SYM_SLOT && !s->field)))
         return of_symbol(f, s, column);
     if (field || test)
@@ -132,11 +135,29 @@ tree *meaning_of_name(form *f, const char *name, int column)
         s->entry = "GRAVITY";
         return of_symbol(f, s, column);
     }
-    if (strcmp(name, "i") == 0 || strcmp(name, "b") == 0 || strcmp(name, "in") == 0 || strcmp(name, "out") == 0)
-        form_fail(f, column, "\"%s\" is not possible as a parameter: generated code has that name itself", name);
+    form_check_name(f, name, column);
     s = form_symbol(f, SYM_REAL, name, 0);
     s->entry = form_text(f, "REAL(%s, \"1\", \"%s\", .flags = PF_REQUIRED)", name, name);
     return of_symbol(f, s, column);
+}
+
+static const symbol *test_in(const tree *t)
+{
+    const symbol *s = t->symbol && t->symbol->kind == SYM_TEST ? t->symbol : NULL;
+
+    for (int i = 0; i < 2 && !s; i++)
+        s = t->arg[i] ? test_in(t->arg[i]) : NULL;
+    return s;
+}
+
+static void fail_two_tests(form *f, int column, const tree *a, const tree *b)
+{
+    const weak_field *x = test_in(a)->field, *y = test_in(b)->field;
+
+    form_fail(f, column,
+              "a product of two test functions, %s (of %s) and %s (of %s); if one is meant as a parameter, call it "
+              "otherwise",
+              x->test, x->name, y->test, y->name);
 }
 
 tree *meaning_of_operator(form *f, const char *op, int column, tree *a, tree *b)
@@ -163,7 +184,7 @@ tree *meaning_of_operator(form *f, const char *op, int column, tree *a, tree *b)
         form_fail(f, column, "%s * %s: expected a scalar on one side; products of others are dot, inner and cross",
                   rank_name(a->rank), rank_name(b->rank));
     if (a->degree && b->degree)
-        form_fail(f, column, "a product of two test functions");
+        fail_two_tests(f, column, a, b);
     t->rank = a->rank + b->rank;
     t->degree = a->degree + b->degree;
     return t;
@@ -201,7 +222,7 @@ static tree *of_dot(form *f, int column, tree *a, tree *b)
     t->rank = a->rank + b->rank - 2;
     t->degree = a->degree + b->degree;
     if (t->degree > 1)
-        form_fail(f, column, "a product of two test functions");
+        fail_two_tests(f, column, a, b);
     return t;
 }
 
@@ -210,6 +231,9 @@ static tree *of_field(form *f, const char *name, int column, const tree *a)
 {
     const symbol *s = strcmp(a->op, "name") == 0 ? a->symbol : NULL;
 
+    if (s && s->kind == SYM_REAL && !s->is_property)
+        form_fail(f, column, "%s(%s): expected a field; declare it with --fields %s:scalar:2", name, s->name,
+                  s->name);
     if (!s || !s->field || (strcmp(s->name, s->field->name) != 0 && strcmp(s->name, s->field->test) != 0))
         form_fail(f, column, "%s(...): expected a field%s", name,
                   strcmp(name, "test") == 0 ? "" : " or a test function; of other things write out what you mean");
@@ -282,11 +306,10 @@ tree *meaning_of_call(form *f, const char *name, int column, tree **arg, int n)
     t = tree_new(f, g->name, column, arg[0], n > 1 ? arg[1] : NULL);
     t->rank = g->result;
     t->degree = arg[0]->degree + (n > 1 ? arg[1]->degree : 0);
+    if (t->degree > 1 && g->linear)
+        fail_two_tests(f, column, arg[0], arg[1]);
     if (t->degree > g->linear)
-        form_fail(f, column,
-                  g->linear ? "a product of two test functions"
-                            : "%s of a test function: the form is not linear in it",
-                  name);
+        form_fail(f, column, "%s of a test function: the form is not linear in it", name);
     f->only_3d |= strcmp(name, "cross") == 0;
     return t;
 }

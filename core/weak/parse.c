@@ -10,6 +10,7 @@
 #include "weak/form.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -75,6 +76,8 @@ static tree *parse_operand(reader *r)
         t->number = strtod(r->at, &end);
         if (end == r->at)
             form_fail(r->f, from, "expected a number");
+        if (!isfinite(t->number))
+            form_fail(r->f, from, "the number is too large");
         r->at = end;
     } else if (isalpha((unsigned char)*r->at)) {
         const char *name = take_name(r);
@@ -169,7 +172,9 @@ static int parse_part(reader *r)
     }
     if (form_field(r->f, name) || form_named(r->f, name))
         form_fail(r->f, from, "\"%s\" has a meaning already; give the part another name", name);
+    form_check_name(r->f, name, from);
     s = form_symbol(r->f, SYM_PART, name, 0);
+    s->column = from;
     s->part = parse_sum(r);
     s->rank = s->part->rank;
     if (s->part->degree)
@@ -189,6 +194,9 @@ tree *parse_form(form *f)
     skip_blanks(&r);
     if (*r.at)
         form_fail(f, column(&r), "expected the end, or + or - and one more addend");
+    for (int i = 0; i < f->n_symbol; i++)
+        if (f->symbol[i]->kind == SYM_PART && !f->symbol[i]->is_used)
+            form_fail(f, f->symbol[i]->column, "the part \"%s\" is not used; leave it out", f->symbol[i]->name);
     if (t->rank != 0)
         form_fail(f, 0, "the form is a %s; it must be a scalar: dot or inner with a test function",
                   t->rank == 1 ? "vector" : "tensor");

@@ -114,6 +114,7 @@ typedef struct pf_slot {
     /* Where the term makes sense, for each component; tests keep to it, and a body's key has to; min >= max:
      * everywhere. */
     double min, max;
+    uint32_t flags; /* PF_DATA: PF_REQUIRED, the case must give it; else what it leaves out is 0 (1.4) */
 } pf_slot;
 
 /* Where the values of a field live. */
@@ -226,7 +227,8 @@ enum pf_term_flag {
     /* PF_FACET: on where a boundary line has the name of its PF_DATA slot as a key:
      * boundary "left" { heat_flux = 3 } */
     PF_BY_BOUNDARY = 8,
-    /* PF_SOLID: its rows of particle fields, with the sign changed, are what the fluid does to the body (1.1) */
+    /* PF_SOLID, PF_SURFACE: its rows of particle fields, with the sign changed, are what the fluid does to the body.
+     * Without it what the term gives a body is missing in particles.csv (1.1) */
     PF_FLUID_FORCE = 16,
     PF_METRIC = 32,        /* it reads pf_batch.metric; not on PF_CUT and PF_PAIR (1.3) */
     PF_WALL_DISTANCE = 64, /* it reads pf_batch.wall_distance (1.4)                  */
@@ -344,11 +346,28 @@ PF_EXPORT const pf_plugin *pf_plugin_entry(const pf_host *, char *err, size_t ne
     .term = PF_LIST(const pf_term *const, __VA_ARGS__), .n_term = PF_COUNT(const pf_term *, __VA_ARGS__)
 
 /* A parameter that is a real number: the key has the name of the struct's member; then default, range, flags. */
+#ifdef __cplusplus /* whose designators keep to the order of the members: flags, dflt, min, max */
+struct pf_number_rest {
+    uint32_t flags;
+    double dflt, min, max;
+};
+static inline pf_param pf_number(const char *name, const char *unit, const char *doc, size_t offset,
+                                 pf_number_rest rest)
+{
+    const pf_param p = {name,      unit,     doc,      PF_T_REAL, rest.flags, (uint32_t)offset,
+                        rest.dflt, rest.min, rest.max, NULL};
+
+    return p;
+}
+#define PF_NUMBER(STRUCT, MEMBER, UNIT, DOC, ...)                                                                  \
+    pf_number(#MEMBER, UNIT, DOC, offsetof(STRUCT, MEMBER), pf_number_rest{__VA_ARGS__})
+#else
 #define PF_NUMBER(STRUCT, MEMBER, UNIT, DOC, ...)                                                                  \
     {                                                                                                              \
         .name = #MEMBER, .unit = UNIT, .doc = DOC, .type = PF_T_REAL, .offset = offsetof(STRUCT, MEMBER),          \
         __VA_ARGS__                                                                                                \
     }
+#endif
 #define PF_NOT_NEGATIVE .min = 0, .max = 1e30
 
 /* The exported symbol of a plugin that needs nothing of its host at the start. */

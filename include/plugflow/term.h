@@ -1,3 +1,4 @@
+/* clang-format off */
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * term.h -- the short way to write a plugin in C: one file, each term once, its physics in symbols.
@@ -41,10 +42,18 @@
  * LANES (i)              for all points of the batch, i
  * EACH (a)               for all directions of space, a
  * EACH_SPIN (a)          for all components of a spin: 1 in 2D, 3 in 3D
+ * EACH_SYM (n)           for all components of a symmetric tensor: 3 in 2D, 6 in 3D
+ * tau[AT_SYM(a, k)][i]   the component of a symmetric tensor that has row a and column k, in either order
  * DIM                    2 or 3
- * AT(b->normal, a)       component a at lane i of what the batch b has: x, arm, normal, centre, ...; AT(b->axes, a,
- * k) FAIL(PF_RETRY, ...)    leaves: point i cannot be computed, and why, as in printf sqrt exp log sin cos tan tanh
- * atan fabs pow max min    of real and of complex numbers creal(x)               to compare: if (creal(u) < 0) */
+ * AT(b->normal, a)       component a at lane i of what the batch b has: x, arm, normal, centre, ...
+ * AT(b->axes, a, k)      component a, k of its tensors: axes, metric
+ * FAIL(PF_RETRY, ...)    leaves: point i cannot be computed, and why, as in printf
+ * sqrt exp log sin cos tan tanh atan fabs pow max min
+ *                        of real and of complex numbers
+ * creal(x)               to compare: if (creal(u) < 0)
+ *
+ * A term has up to 12 slots IN, 12 OUT and 32 keys, a plugin 16 fields; other lists have up to 32 entries. */
+/* clang-format on */
 #ifndef PLUGFLOW_TERM_H
 #define PLUGFLOW_TERM_H
 
@@ -73,8 +82,14 @@
 #define LANES(i)     PF_LANES_OF (b, i)
 #define EACH(a)      for (uint32_t a = 0; a < b->dim; a++)
 #define EACH_SPIN(a) for (uint32_t a = 0; a < PF_SPINS; a++)
+#define EACH_SYM(n)  for (uint32_t n = 0; n < PF_N_SYM; n++)
 #define DIM          (b->dim)
 #define PF_SPINS     (b->dim == 2 ? 1u : 3u)
+
+/* The upper triangle, row after row. */
+#define PF_N_SYM        (b->dim == 2 ? 3u : 6u)
+#define AT_SYM(a, k)    ((a) < (k) ? PF_SYM_OF(a, k) : PF_SYM_OF(k, a))
+#define PF_SYM_OF(a, k) ((a) * (2 * DIM - 1 - (a)) / 2 + (k))
 
 #define AT(...)                  PF_PICK(__VA_ARGS__, PF_AT2, PF_AT1, )(__VA_ARGS__)
 #define PF_PICK(a, b, c, d, ...) d
@@ -87,13 +102,26 @@
         return;                                                                                                    \
     } while (0)
 
-/* --- Slots: VALUE(u), GRAD(u), DIV(u), DOT(u), OLD(u), LAPLACE(u) are u, grad_u, div_u, u_t, old_u, lap_u; the
- * test function of u: TEST(u, v), GRAD_TEST(u, v), DIV_TEST(u, v) are v, grad_v, div_v.  Those of the standard
- * fields go by their names alone.  A new field: #define PF_SHAPE_tau SYMMETRIC, and then VALUE(tau), ...  What is
- * left, in full: SLOT(dU, U, DEFECT, VECTOR).  Others: DATA(flux, SCALAR), PROPERTY(viscosity, "Pa s")
- * to publish it, PROPERTY_AS(k, conductivity, "W/(m K)") to take it as k, rho and mu being those of fluid{},
- * BODY_KEY(charge, "C", doc), STATE(name, field, SHAPE), SHOW(rate, SCALAR, "1/s", doc), INTEGRAL(power, SCALAR,
- * "W", doc); after them members of pf_slot. --- */
+/* clang-format off */
+/* --- Slots.  Those of the standard fields go by their names alone: u, grad_u, u_t, old_u, lap_u, v, grad_v, ...
+ *
+ * VALUE(F) GRAD(F) DIV(F) DOT(F) OLD(F) LAPLACE(F)   F, grad_F, div_F, F_t, old_F, lap_F
+ * TEST(F, w) GRAD_TEST(F, w) DIV_TEST(F, w)          w, grad_w, div_w: of the test function of F
+ * OTHER(U), OTHER_TEST(U, V)                         other_U, other_V: of the other body of a pair
+ * SLOT(dU, U, DEFECT, VECTOR)                        what is left, in full
+ * DATA(flux, SCALAR)                                 a number or a function of the case
+ * PROPERTY(viscosity, "Pa s", doc)                   to publish it
+ * PROPERTY_AS(k, conductivity, "W/(m K)")            to take it as k; rho and mu are those of fluid{}
+ * BODY_KEY(charge, "C", doc)                         a key of particle{}, a number; on pairs of the first body
+ * BODY_KEY_VECTOR(moment, "A m^2", doc)              the same, a vector
+ * OTHER_KEY(charge), OTHER_KEY_VECTOR(moment)        other_charge, other_moment: of the other body of a pair
+ * STATE(name, field, SHAPE)                          memory
+ * SHOW(rate, SCALAR, "1/s", doc)                     shown in the files
+ * INTEGRAL(power, SCALAR, "W", doc)                  shown in the tables
+ *
+ * After all of them members of pf_slot: .min = 0, .max = 1.  A new field: #define PF_SHAPE_tau SYMMETRIC, and then
+ * VALUE(tau), ... --- */
+/* clang-format on */
 #define PF_SLOT_VALUE(F)                            PF_SHAPE_##F, F, #F, PF_VALUE
 #define PF_SLOT_GRAD(F)                             PF_SHAPE_OF_GRAD(PF_SHAPE_##F), grad_##F, #F, PF_GRAD
 #define PF_SLOT_DIV(F)                              PF_SHAPE_OF_DIV(PF_SHAPE_##F), div_##F, #F, PF_DIV
@@ -103,13 +131,20 @@
 #define PF_SLOT_TEST(F, NAME)                       PF_SHAPE_##F, NAME, #F, PF_VALUE
 #define PF_SLOT_GRAD_TEST(F, NAME)                  PF_SHAPE_OF_GRAD(PF_SHAPE_##F), grad_##NAME, #F, PF_GRAD
 #define PF_SLOT_DIV_TEST(F, NAME)                   PF_SHAPE_OF_DIV(PF_SHAPE_##F), div_##NAME, #F, PF_DIV
+#define PF_SLOT_OTHER(F)                            PF_SHAPE_##F, other_##F, #F, PF_OTHER
+#define PF_SLOT_OTHER_TEST(F, NAME)                 PF_SHAPE_##F, other_##NAME, #F, PF_OTHER
 #define PF_SLOT_SLOT(NAME, FIELD, EVAL, SHAPE, ...) SHAPE, NAME, #FIELD, PF_##EVAL, __VA_ARGS__
 #define PF_SLOT_DATA(NAME, SHAPE, ...)              SHAPE, NAME, NULL, PF_DATA, __VA_ARGS__
-#define PF_SLOT_PROPERTY(NAME, UNIT, ...)           SCALAR, NAME, #NAME, PF_PROPERTY, .unit = UNIT, __VA_ARGS__
+#define PF_SLOT_PROPERTY(NAME, UNIT, DOC, ...)                                                                     \
+    SCALAR, NAME, #NAME, PF_PROPERTY, .unit = UNIT, .doc = DOC, __VA_ARGS__
 #define PF_SLOT_PROPERTY_AS(NAME, PUBLISHED, UNIT, ...)                                                            \
     SCALAR, NAME, #PUBLISHED, PF_PROPERTY, .unit = UNIT, __VA_ARGS__
 #define PF_SLOT_BODY_KEY(NAME, UNIT, DOC, ...)                                                                     \
     SCALAR, NAME, #NAME, PF_BODY_KEY, .unit = UNIT, .doc = DOC, __VA_ARGS__
+#define PF_SLOT_BODY_KEY_VECTOR(NAME, UNIT, DOC, ...)                                                              \
+    VECTOR, NAME, #NAME, PF_BODY_KEY, .unit = UNIT, .doc = DOC, __VA_ARGS__
+#define PF_SLOT_OTHER_KEY(NAME, ...)              SCALAR, other_##NAME, #NAME, PF_OTHER_KEY, __VA_ARGS__
+#define PF_SLOT_OTHER_KEY_VECTOR(NAME, ...)       VECTOR, other_##NAME, #NAME, PF_OTHER_KEY, __VA_ARGS__
 #define PF_SLOT_STATE(NAME, FIELD, SHAPE, ...)    SHAPE, NAME, #FIELD, PF_STATE, __VA_ARGS__
 #define PF_SLOT_SHOW(NAME, SHAPE, UNIT, DOC, ...) SHAPE, NAME, NULL, PF_SHOW, .unit = UNIT, .doc = DOC, __VA_ARGS__
 #define PF_SLOT_INTEGRAL(NAME, SHAPE, UNIT, DOC, ...)                                                              \
@@ -148,6 +183,7 @@
 #define PF_SLOT_grad_p      PF_SLOT_GRAD(p)
 #define PF_SLOT_p_t         PF_SLOT_DOT(p)
 #define PF_SLOT_old_p       PF_SLOT_OLD(p)
+#define PF_SLOT_lap_p       PF_SLOT_LAPLACE(p)
 #define PF_SLOT_T           PF_SLOT_VALUE(T)
 #define PF_SLOT_grad_T      PF_SLOT_GRAD(T)
 #define PF_SLOT_T_t         PF_SLOT_DOT(T)
@@ -162,6 +198,7 @@
 #define PF_SLOT_grad_phi    PF_SLOT_GRAD(phi)
 #define PF_SLOT_phi_t       PF_SLOT_DOT(phi)
 #define PF_SLOT_old_phi     PF_SLOT_OLD(phi)
+#define PF_SLOT_lap_phi     PF_SLOT_LAPLACE(phi)
 #define PF_SLOT_U           PF_SLOT_VALUE(U)
 #define PF_SLOT_U_t         PF_SLOT_DOT(U)
 #define PF_SLOT_old_U       PF_SLOT_OLD(U)
@@ -170,6 +207,10 @@
 #define PF_SLOT_old_omega   PF_SLOT_OLD(omega)
 #define PF_SLOT_lambda      PF_SLOT_VALUE(lambda)
 #define PF_SLOT_grad_lambda PF_SLOT_GRAD(lambda)
+#define PF_SLOT_div_lambda  PF_SLOT_DIV(lambda)
+#define PF_SLOT_lambda_t    PF_SLOT_DOT(lambda)
+#define PF_SLOT_old_lambda  PF_SLOT_OLD(lambda)
+#define PF_SLOT_lap_lambda  PF_SLOT_LAPLACE(lambda)
 /* Their test functions: v, q, s; V, xi, eta; of c and phi test_c and test_phi. */
 #define PF_SLOT_v             PF_SLOT_TEST(u, v)
 #define PF_SLOT_grad_v        PF_SLOT_GRAD_TEST(u, v)
@@ -186,6 +227,7 @@
 #define PF_SLOT_xi            PF_SLOT_TEST(omega, xi)
 #define PF_SLOT_eta           PF_SLOT_TEST(lambda, eta)
 #define PF_SLOT_grad_eta      PF_SLOT_GRAD_TEST(lambda, eta)
+#define PF_SLOT_div_eta       PF_SLOT_DIV_TEST(lambda, eta)
 
 /* Properties of the fluid, see PF_PROPERTY; the term lists the keys DENSITY and VISCOSITY, too. */
 #define PF_SLOT_rho                                                                                                \
@@ -303,22 +345,21 @@
     (&pf_status, b PF_EACH(PF_IN_PASSED, NAME, INPUT) PF_EACH(PF_BLOCK_PASSED, NAME, PARTS)                        \
                      PF_EACH(PF_KEY_PASSED, NAME, KEYS))
 
-#define PF_BLOCK_SCALAR_SCALAR(NAME) double *restrict NAME
-#define PF_BLOCK_SCALAR_VECTOR(NAME) double(*restrict NAME)[b->ld]
-#define PF_BLOCK_VECTOR_SCALAR(NAME) double(*restrict NAME)[b->ld]
-#define PF_BLOCK_SCALAR_TENSOR(NAME) double(*restrict NAME)[b->dim][b->ld]
-#define PF_BLOCK_VECTOR_VECTOR(NAME) double(*restrict NAME)[b->dim][b->ld]
-#define PF_BLOCK_TENSOR_SCALAR(NAME) double(*restrict NAME)[b->dim][b->ld]
-#define PF_BLOCK_VECTOR_TENSOR(NAME) double(*restrict NAME)[b->dim][b->dim][b->ld]
-#define PF_BLOCK_TENSOR_VECTOR(NAME) double(*restrict NAME)[b->dim][b->dim][b->ld]
-#define PF_BLOCK_TENSOR_TENSOR(NAME) double(*restrict NAME)[b->dim][b->dim][b->dim][b->ld]
-#define PF_BLOCK_SPIN_SCALAR(NAME)   double(*restrict NAME)[b->ld]
-#define PF_BLOCK_SPIN_VECTOR(NAME)   double(*restrict NAME)[b->dim][b->ld]
-#define PF_BLOCK_SPIN_TENSOR(NAME)   double(*restrict NAME)[b->dim][b->dim][b->ld]
-#define PF_BLOCK_SPIN_SPIN(NAME)     double(*restrict NAME)[PF_SPINS][b->ld]
-#define PF_BLOCK_SCALAR_SPIN(NAME)   double(*restrict NAME)[b->ld]
-#define PF_BLOCK_VECTOR_SPIN(NAME)   double(*restrict NAME)[PF_SPINS][b->ld]
-#define PF_BLOCK_TENSOR_SPIN(NAME)   double(*restrict NAME)[b->dim][PF_SPINS][b->ld]
+/* A block has the indices of the output, then those of the input. */
+#define PF_BLOCK_SCALAR(IN, NAME)         PF_ROWS_##IN(double, NAME)
+#define PF_BLOCK_VECTOR(IN, NAME)         double(*restrict NAME) PF_EXTENT_##IN[b->ld]
+#define PF_BLOCK_SPIN(IN, NAME)           double(*restrict NAME) PF_EXTENT_##IN[b->ld]
+#define PF_BLOCK_SYMMETRIC(IN, NAME)      double(*restrict NAME) PF_EXTENT_##IN[b->ld]
+#define PF_BLOCK_TENSOR(IN, NAME)         double(*restrict NAME)[b->dim] PF_EXTENT_##IN[b->ld]
+#define PF_BLOCK_SYMMETRIC_GRAD(IN, NAME) double(*restrict NAME)[b->dim] PF_EXTENT_##IN[b->ld]
+#define PF_BLOCK_TENSOR_GRAD(IN, NAME)    double(*restrict NAME)[b->dim][b->dim] PF_EXTENT_##IN[b->ld]
+#define PF_EXTENT_SCALAR
+#define PF_EXTENT_VECTOR         [b->dim]
+#define PF_EXTENT_SPIN           [PF_SPINS]
+#define PF_EXTENT_SYMMETRIC      [PF_N_SYM]
+#define PF_EXTENT_TENSOR         [b->dim][b->dim]
+#define PF_EXTENT_SYMMETRIC_GRAD [PF_N_SYM][b->dim]
+#define PF_EXTENT_TENSOR_GRAD    [b->dim][b->dim][b->dim]
 
 #define PF_UNUSED           __attribute__((unused))
 #define PF_LOCAL            __attribute__((visibility("hidden")))
@@ -353,7 +394,7 @@
 #define PF_OUT_ARGUMENT_I(K, SHAPE, NAME, ...)       , PF_UNUSED PF_ROWS_##SHAPE(NUM, NAME)
 #define PF_REAL_ARGUMENT_I(K, SHAPE, NAME, ...)      , PF_UNUSED PF_ROWS_##SHAPE(const double, NAME)
 #define PF_NUMBER_I(PREFIX, K, SHAPE, NAME, ...)     PREFIX##NAME = K,
-#define PF_BLOCK_ARGUMENT_I(SHAPE_O, O, SHAPE_I, I)  , PF_BLOCK_##SHAPE_O##_##SHAPE_I(d##O##_d##I)
+#define PF_BLOCK_ARGUMENT_I(SHAPE_O, O, SHAPE_I, I)  , PF_BLOCK_##SHAPE_O(SHAPE_I, d##O##_d##I)
 #define PF_BLOCK_PASSED_I(X, SHAPE_O, O, SHAPE_I, I) , (void *)jac[X##_out_##O * X##_n_in + X##_in_##I]
 #define PF_SLOT_ENTRY_I(K, SHAPE, NAME, FIELD, EVAL, ...)                                                          \
     {.name = #NAME, .field = FIELD, .eval = EVAL, .shape = PF_##SHAPE, __VA_ARGS__},

@@ -32,8 +32,8 @@ static inline NUM F(loss)(const pf_batch *b, const NUM *grad_T, NUM w, NUM k, do
 }
 
 /* -k dT/dn s + k ds/dn (T - T_b) + gamma k/h (T - T_b) s: the surface holds the temperature T_b */
-TERM(surface_temperature, PF_SURFACE, IN(T, grad_T, DATA(temperature, SCALAR), K), OUT(s, grad_s),
-     PARAMS(CONDUCTIVITY, GAMMA), .flags = PF_LINEAR | PF_OPTIONAL,
+TERM(surface_temperature, PF_SURFACE, IN(T, grad_T, DATA(temperature, SCALAR, .flags = PF_REQUIRED), K),
+     OUT(s, grad_s), PARAMS(CONDUCTIVITY, GAMMA), .flags = PF_LINEAR | PF_OPTIONAL,
      .doc = "-k\\,\\partial_nT\\,s+k\\,\\partial_ns\\,w+\\gamma\\frac kh\\,w\\,s,\\ w=T-T_b",
      .cite = "Freund and Stenberg 1995 (skew form of Nitsche's method)",
      PF_EXAMPLES({"k = 2, h = 0.1, n = (0.6, -0.8), grad T = (1, 2), 2 warmer than the surface: 20*2/0.1*2 + 2", 2,
@@ -58,8 +58,8 @@ TERM(interface, PF_SURFACE, IN(T, grad_T, VALUE(T_body), K), OUT(s, grad_s, TEST
 }
 
 /* -q s: the surface gives off heat */
-TERM(surface_flux, PF_SURFACE, IN(DATA(heat_flux, SCALAR)), OUT(s), PARAMS(), .flags = PF_LINEAR | PF_OPTIONAL,
-     .doc = "-q\\,s", .cite = "Carslaw, Jaeger (1959), 1.9",
+TERM(surface_flux, PF_SURFACE, IN(DATA(heat_flux, SCALAR, .flags = PF_REQUIRED)), OUT(s), PARAMS(),
+     .flags = PF_LINEAR | PF_OPTIONAL, .doc = "-q\\,s", .cite = "Carslaw, Jaeger (1959), 1.9",
      PF_EXAMPLES({"q = 3 W/m^2 into the fluid", 2, NULL, (double[]){3}, (double[]){-3}, 1e-15}))
 {
     LANES (i)

@@ -207,6 +207,37 @@ ALTERATION(param_offset_wraps, params[0].offset = UINT32_MAX - 3)
 ALTERATION(choice_out_of_range, params[2].dflt = 2)
 ALTERATION(duplicate_param, params[1].name = "density")
 ALTERATION(param_without_unit, params[0].unit = NULL)
+ALTERATION(key_of_every_line, params[0].name = "over")
+ALTERATION(data_of_every_line, in[2].name = "name")
+ALTERATION(required_unknown, in[0].flags = PF_REQUIRED, plugin.min_minor = 4)
+ALTERATION(required_without_minor, in[2].flags = PF_REQUIRED)
+
+/* A second term that takes the same keys, the density as `other` says. */
+static pf_param other_params[4];
+static pf_term other_term;
+
+static void add_term(pf_param other)
+{
+    memcpy(other_params, params, sizeof params);
+    other_params[0] = other;
+    other_term = term;
+    other_term.name = "other";
+    other_term.param = other_params;
+    terms[1] = &other_term;
+    plugin.n_term = 2;
+}
+
+static pf_param with(const char *unit, double dflt, double max)
+{
+    pf_param p = params[0];
+
+    p.unit = unit, p.dflt = dflt, p.max = max;
+    return p;
+}
+
+ALTERATION(two_units, add_term(with("g/cm^3", 1, 1e30)))
+ALTERATION(two_defaults, add_term(with("kg/m^3", 5, 1e30)))
+ALTERATION(two_ranges, add_term(with("kg/m^3", 1, 10)))
 
 /* --- worked examples --- */
 ALTERATION(wrong_example, example_out[1] = 34)
@@ -300,6 +331,13 @@ static const struct alteration {
     A(choice_out_of_range),
     A(duplicate_param),
     A(param_without_unit),
+    A(key_of_every_line),
+    A(data_of_every_line),
+    A(required_unknown),
+    A(required_without_minor),
+    A(two_units),
+    A(two_defaults),
+    A(two_ranges),
     A(wrong_example),
     A(example_of_no_dimension),
     A(example_without_output),

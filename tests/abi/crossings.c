@@ -57,7 +57,7 @@ TERM(relax, PF_PARTICLE, IN(VALUE(dipole), DOT(dipole)), OUT(TEST(dipole, e)), P
 }
 
 /* A viscosity that is none for x < 1/2, and a stress that takes it where the case says. */
-TERM(law, PF_FLUID, IN(), OUT(PROPERTY(viscosity, "Pa s", .doc = "viscosity")), PARAMS(), KNOWN, .doc = "x-1/2")
+TERM(law, PF_FLUID, IN(), OUT(PROPERTY(viscosity, "Pa s", "viscosity")), PARAMS(), KNOWN, .doc = "x-1/2")
 {
     LANES (i)
         viscosity[i] = b->x[i] - 0.5;

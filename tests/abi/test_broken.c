@@ -110,6 +110,7 @@ static const struct CMUnitTest tests[] = {
     TOLD(sound, "the file sound.so holds a plugin \"broken\": they must have the same name", " 1 failed"),
     LOADS("sound_plugin_passes", "sound.so", "broken"),
     LOADS("plugin_of_a_later_minor_version_with_longer_structs_passes", "later_minor.so", "broken"),
+    LOADS("keys_of_one_name_may_have_two_ranges", "two_ranges.so", "broken"),
     LOADS("required_whole_number_is_tested_inside_its_range", "needs_order.so", "broken"),
     LOADS("frozen_header_1_0_loads", "frozen_1_0.so", "first"),
     LOADS("frozen_header_1_1_loads", "frozen_1_1.so", "second"),
@@ -185,6 +186,14 @@ static const struct CMUnitTest tests[] = {
     TOLD(choice_out_of_range, "parameter \"form\": default 2 is none of its 2 choices"),
     TOLD(duplicate_param, "two parameters are called \"density\""),
     TOLD(param_without_unit, "parameter \"density\" lacks a unit"),
+    TOLD(key_of_every_line, "parameter \"over\" is a key of every term line; give it another name"),
+    TOLD(data_of_every_line, "PF_DATA slot \"name\" is a key of every term line; give it another name"),
+    TOLD(required_unknown, "input slot \"u\" has PF_REQUIRED, which is for PF_DATA"),
+    TOLD(required_without_minor, "uses PF_REQUIRED of data of plugin interface 1.4", "set .min_minor = 4"),
+    TOLD(two_units,
+         "term other: parameter \"density\" has another unit than in term convection (g/cm^3, default 1; "
+         "there kg/m^3, default 1)"),
+    TOLD(two_defaults, "term other: parameter \"density\" has another default than in term convection"),
 
     /* worked examples */
     TOLD(wrong_example, "WRONG  convection  example \"one point\": v[1] is 33, expected 34"),

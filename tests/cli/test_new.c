@@ -93,6 +93,17 @@ static void a_wrong_form_is_shown_where_it_is_wrong(void **state)
     refuses("n_x --weak 'sqr(T)*s'", 2, "did you mean \"sqrt\"?");
     refuses("n_x --weak 'dot(u, T)*q'", 2, "column 1: dot(vector, scalar)");
     refuses("n_x --weak 's*s'", 2, "a product of two test functions");
+    refuses("n_x --weak 'eta*inner(grad(u), grad(v))'", 2, "eta (of lambda) and v (of u)");
+    refuses("n_x --weak 'T*s/0'", 2, "column 4: division by zero");
+    refuses("n_x --weak 'T*s/(1 - 1)'", 2, "column 4: division by zero");
+    refuses("n_x --weak '1e400*T*s'", 2, "column 1: the number is too large");
+    refuses("n_x --weak 'T*s*1e300*1e300'", 2, "not finite");
+    refuses("n_x --weak 'int*T*s'", 2, "column 1: \"int\" is not possible as a name");
+    refuses("n_x --weak 'T*s*sqrt'", 2, "column 5: \"sqrt\" is not possible as a name");
+    refuses("n_x --weak 'for = 2; for*T*s'", 2, "column 1: \"for\" is not possible as a name");
+    refuses("n_x --fields while:scalar:2 --weak 'while*test(while)'", 2, "\"while\" is not possible as a name");
+    refuses("n_x --weak 'k = property(k0); T*s'", 2, "column 1: the part \"k\" is not used");
+    refuses("n_x --weak 'salt*test(salt)'", 2, "declare it with --fields salt:scalar:2");
     refuses("n_x --weak 'exp(s)'", 2, "not linear");
     refuses("n_x --weak 'T*T'", 2, "no test function");
     refuses("n_x --weak 'T*s + 1'", 2, "one side of \"+\" has a test function");

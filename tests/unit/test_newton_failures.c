@@ -179,6 +179,7 @@ static void unknowns_without_an_equation_are_named(void **state)
     assert_true(f.report.singular && !f.report.converged);
     assert_said(f.report.why,
                 "the linear system is singular: no equation contains b at (0, 0) and 15 other unknowns");
+    assert_said(f.report.why, "(linear solver solver_umfpack: the matrix is singular");
 }
 
 static void a_combination_that_is_open_is_told(void **state)

@@ -4,6 +4,7 @@
  *
  *     (mu / K u + rho c_F / sqrt(K) |u| u) . v                                                             */
 #include <plugflow/dual.hpp>
+#include <plugflow/fluid.h>
 
 struct drag {
     double density, viscosity, permeability, forchheimer;
@@ -29,12 +30,11 @@ struct drag {
 
 static const pf_field fields[] = {{"u", "m/s", "velocity", PF_VECTOR, 2, PF_ON_MESH, "force", "N", nullptr}};
 static const pf_slot in[] = {{"u", "u", PF_VALUE, PF_VECTOR}}, out[] = {{"v", "u", PF_VALUE, PF_VECTOR}};
-static const uint32_t of_fluid = PF_REQUIRED | PF_SHARED;
 static const pf_param keys[] = {
-    {"density", "kg/m^3", "mass per volume", PF_T_REAL, of_fluid, offsetof(drag, density), 0, 0, 1e30, nullptr},
-    {"viscosity", "Pa s", "dynamic viscosity", PF_T_REAL, of_fluid, offsetof(drag, viscosity), 0, 0, 1e30, nullptr},
-    {"permeability", "m^2", "K", PF_T_REAL, PF_REQUIRED, offsetof(drag, permeability), 0, 1e-30, 1e30, nullptr},
-    {"forchheimer", "1", "c_F", PF_T_REAL, 0, offsetof(drag, forchheimer), 0.55, 0, 1e30, nullptr},
+    PF_DENSITY(drag),
+    PF_VISCOSITY(drag),
+    PF_NUMBER(drag, permeability, "m^2", "K", .flags = PF_REQUIRED, .min = 1e-30, .max = 1e30),
+    PF_NUMBER(drag, forchheimer, "1", "c_F", .dflt = 0.55, PF_NOT_NEGATIVE),
 };
 
 /* 3/4 (3, 4) + 2 (1/2) / 2 |(3, 4)| (3, 4) */

@@ -70,6 +70,27 @@ static void terms_of_bodies_pairs_and_boundaries_are_sound(void **state)
     assert_ran(test_of("lab"), 0, "marangoni", "oldroyd", "0 failed");
 }
 
+static void slots_of_every_kind_are_sound(void **state)
+{
+    (void)state;
+    assert_ran(test_of("slots"), 0, "d w / d tau in 3D: analytic = complex step",
+               "d grad_v / d tau in 3D: analytic = complex step", "d grad_w / d grad_tau in 2D: analytic",
+               "d viscosity / d grad_u", "d test_phi / d lap_phi", "d other_V / d U", "0 failed");
+}
+
+/* A file that the command line names is what solve { solver = ... } asks for. */
+static void a_solver_is_found_on_the_command_line(void **state)
+{
+    (void)state;
+    assert_ran(
+        plugflow("run tests/abi/kit/solved.lua --plugin \"$PLUGFLOW_BUILD/tests/abi/kit/solver_declines.so\" "
+                 "--out '%s/s'",
+                 scratch()),
+        2, "the test was here");
+    assert_ran(plugflow("run tests/abi/kit/solved.lua --out '%s/s'", scratch()), 2,
+               "no plugin solver_declines.so was found");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -78,6 +99,8 @@ int main(void)
         cmocka_unit_test(the_slots_and_keys_are_those_of_the_source),
         cmocka_unit_test(a_power_law_channel_is_exact),
         cmocka_unit_test(terms_of_bodies_pairs_and_boundaries_are_sound),
+        cmocka_unit_test(slots_of_every_kind_are_sound),
+        cmocka_unit_test(a_solver_is_found_on_the_command_line),
         cmocka_unit_test(a_term_in_cpp_is_written_once),
     };
 
