@@ -21,9 +21,9 @@ static const struct hint {
      ")?.{1,3}b[^a-z0-9_]",
      0, "a key or a slot is called as what every block has (b is the batch): give it another name"},
     {"function .{1,3}PF_EACH_|PF_EACH_[A-Za-z_].*(undeclared|expected)|expected .*PF_EACH_", 0,
-     "a list has more than 16 members: IN, OUT, PARAMS, BLOCKS, FIELDS and TERMS take up to 16 (and a term 12 "
-     "slots a "
-     "side); make it two terms, or one VECTOR of three keys"},
+     "a list is too long: a term has up to 12 slots IN, 12 OUT and 32 keys, a plugin 16 fields; make it two terms, "
+     "or one "
+     "VECTOR of three keys"},
     {"[A-Za-z0-9_]_complex.{1,3} used but never defined|[A-Za-z0-9_]_complex.{1,3} has internal linkage but is not "
      "defined|undefined (symbol|reference).*_complex",
      1, "the last line of the file is missing: #include PF_TWIN"},

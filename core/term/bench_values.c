@@ -173,6 +173,8 @@ void bench_put_other(bench *k, const pf_param *p, int n)
         *v = n ? p->max : p->min;
     else if (!(p->min < p->max) && n == 0)
         *v *= 1e4;
+    else if (!(p->min < p->max) && n == 1)
+        *v = 1e-9;
     bench_put_param(k, p, v);
 }
 

@@ -47,8 +47,10 @@ static void messages_about_macros_are_explained(void **state)
           "#define K(n) REAL(k##n, \"1\", \"k\")\n"
           "TERM(t, PF_FLUID, IN(T), OUT(s), PARAMS(K(1), K(2), K(3), K(4), K(5), K(6), K(7), K(8), K(9), K(10), "
           "K(11), "
-          "K(12), K(13), K(14), K(15), K(16), K(17)), " SAID "{ LANES(i) s[i] = k1 * T[i]; }",
-          WITH_TWIN, 5, "hint: a list has more than 16 members");
+          "K(12), K(13), K(14), K(15), K(16), "
+          "K(17), K(18), K(19), K(20), K(21), K(22), K(23), K(24), K(25), K(26), K(27), K(28), K(29), K(30), "
+          "K(31), K(32), K(33), K(34), K(35)), " SAID "{ LANES(i) s[i] = k1 * T[i]; }",
+          WITH_TWIN, 5, "hint: a list is too long");
     built("m_twin", "TERM(t, PF_FLUID, IN(T), OUT(s), PARAMS(), " SAID "{ LANES(i) s[i] = T[i]; }", "", 5,
           "hint: the last line of the file is missing: #include PF_TWIN");
 }
