@@ -147,7 +147,7 @@ static const char channel[] = "case \"c\"\nmesh { box = {{0, 0}, {1, 1}}, cells 
 static void of_a_case_all_kinds_of_terms_are_tested(void **state)
 {
     static const char *const terms[] = {
-        "TERM(t, PF_FLUID, IN(grad_u), OUT(PROPERTY(viscosity, \"Pa s\", .doc = \"d\")), PARAMS(), " SAID
+        "TERM(t, PF_FLUID, IN(grad_u), OUT(PROPERTY(viscosity, \"Pa s\", \"d\")), PARAMS(), " SAID
         "{ LANES(i) viscosity[i] = 1 + grad_u[0][0][i] * grad_u[0][0][i]; }",
         "TERM(t, PF_FLUID, IN(u), OUT(SHOW(speed, SCALAR, \"m/s\", \"d\")), PARAMS(), " SAID
         "{ LANES(i) speed[i] = u[0][i]; }",
