@@ -155,8 +155,8 @@ void inputs_unknowns(const assembly *a, const assembly_class *c, const assembly_
                      workspace *w);
 /* properties.c.  Of a batch: what is published there and, with a matrix, w->chain.  Nonzero, with w->report, if a
  * law fails, or gives no number. */
-int properties_evaluate(const assembly_class *c, int64_t batch, int with_matrix, int diagnose, pf_batch *b,
-                        workspace *w);
+int properties_evaluate(const assembly_class *c, const assembly_state *s, int64_t batch, int with_matrix,
+                        int diagnose, pf_batch *b, workspace *w);
 /* The properties that a term takes lie where it makes sense (pf_slot.min, max), at points that count. */
 int properties_fit(const assembly_class *c, const plan_use *p, const pf_batch *b, workspace *w);
 /* d output / d property, [n_out][components of the property], times the chain: [n_out][components of its slot]. */

@@ -343,7 +343,7 @@ int evaluate_terms(const assembly *a, const assembly_class *c, const assembly_st
         memset(w->filled, 0, c->block_size);
     if (s->power)
         inputs_unknowns(a, c, s, batch, w);
-    TRY(properties_evaluate(c, batch, with_matrix, diagnose, &b, w));
+    TRY(properties_evaluate(c, s, batch, with_matrix, diagnose, &b, w));
     for (int u = 0; u < c->n_use; u++) {
         const plan_use *p = &c->use[u];
 

@@ -51,6 +51,8 @@ static int keep_term(const assembly *a, const assembly_class *c, const assembly_
     double *out[TERM_MAX_SLOTS];
     int status = evaluate_term(c, p, batch, b, in, out, w);
 
+    if (!status && s->watch)
+        s->watch->look(s->watch->ctx, p->use, b, in);
     if (!status && evaluate_find_nan(t, b, out, &w->report))
         status = PF_FAIL;
     for (uint32_t o = 0; o < t->n_out && !status; o++)
@@ -85,7 +87,7 @@ static int keep_batch(const assembly *a, const assembly_class *c, const assembly
     geometry_points(a, c, batch, w);
     body_data_take(a, c, s, batch, w);
     inputs_values(a, c, s, batch, w);
-    TRY(properties_evaluate(c, batch, 0, 1, &b, w));
+    TRY(properties_evaluate(c, s, batch, 0, 1, &b, w));
     for (int u = 0; u < c->n_use; u++)
         if (keeps(&c->use[u]) && mask_take(a, c, &c->use[u], w))
             TRY(keep_term(a, c, s, batch, &c->use[u], &b, w, kept));

@@ -145,8 +145,8 @@ static int add_chains(const assembly_class *c, const plan_law *l, int dim, int d
     return 0;
 }
 
-static int evaluate_law(const assembly_class *c, const plan_law *l, int64_t batch, int with_matrix, int diagnose,
-                        pf_batch *b, workspace *w)
+static int evaluate_law(const assembly_class *c, const assembly_state *s, const plan_law *l, int64_t batch,
+                        int with_matrix, int diagnose, pf_batch *b, workspace *w)
 {
     const pf_term *t = l->use->term;
     const size_t nq = (size_t)c->n_q;
@@ -163,6 +163,8 @@ static int evaluate_law(const assembly_class *c, const plan_law *l, int64_t batc
     b->wall_distance = t->flags & PF_WALL_DISTANCE ? (double *)(c->wall + batch * c->n_q) : NULL;
     w->report = (term_report){.plugin = l->use->plugin->d.name, .term = t->name};
     status = t->residual(b, in, out);
+    if (!status && s->watch)
+        s->watch->look(s->watch->ctx, l->use, b, in);
     for (uint32_t o = 0; o < t->n_out && !status && diagnose; o++)
         status = find_nan(b, l->use, &t->out[o], out[o], (size_t)c->input[l->out[o]].n_comp * b->ld, "is", w);
     if (!status && with_matrix)
@@ -175,8 +177,8 @@ static int evaluate_law(const assembly_class *c, const plan_law *l, int64_t batc
     return status;
 }
 
-int properties_evaluate(const assembly_class *c, int64_t batch, int with_matrix, int diagnose, pf_batch *b,
-                        workspace *w)
+int properties_evaluate(const assembly_class *c, const assembly_state *s, int64_t batch, int with_matrix,
+                        int diagnose, pf_batch *b, workspace *w)
 {
     if (with_matrix && c->n_law)
         memset(w->chain, 0, c->chain_size * (size_t)c->n_q * sizeof(v8));
@@ -185,7 +187,7 @@ int properties_evaluate(const assembly_class *c, int64_t batch, int with_matrix,
         int status;
 
         process_enter(l->use->plugin->d.name, l->use->term->name, "property", c->cell[c->batch[batch]]);
-        status = evaluate_law(c, l, batch, with_matrix && c->chain_size, diagnose, b, w);
+        status = evaluate_law(c, s, l, batch, with_matrix && c->chain_size, diagnose, b, w);
         process_leave();
         if (status)
             return status;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * plugflow build DIR|FILE: compiles a plugin of one file, DIR/DIR.c or .cpp, into a shared object beside it. */
+#include "cli/build.h"
 #include "cli/cli.h"
 
 #include <errno.h>
@@ -75,32 +76,62 @@ static int add_words(char **word, int n, const char *variable, const char *other
     return n;
 }
 
-static int compile(char **word, error *err)
+/* The child's messages, passed on as they come, and kept as far as there is room. */
+static void pass_on(int from, char *kept, size_t room)
 {
-    int status = 0;
+    char block[4096];
+    size_t n = 0;
+    ssize_t got;
+
+    while ((got = read(from, block, sizeof block)) > 0 || (got < 0 && errno == EINTR)) {
+        if (got < 0)
+            continue;
+        fwrite(block, 1, (size_t)got, stderr);
+        for (ssize_t i = 0; i < got && n + 1 < room; i++)
+            kept[n++] = block[i] ? block[i] : ' ';
+    }
+    kept[n] = 0;
+}
+
+static int compile(char **word, const char *object, error *err)
+{
+    static char said[1 << 18];
+    int status = 0, end[2], useless;
     pid_t child;
 
     fflush(stdout);
+    if (pipe(end) != 0)
+        return error_set(err, ERR_MEMORY, "no process for the compiler: %s", strerror(errno));
     child = fork();
     if (child < 0)
         return error_set(err, ERR_MEMORY, "no process for the compiler: %s", strerror(errno));
     if (child == 0) {
         cli_release_signals();
+        dup2(end[1], STDERR_FILENO);
+        close(end[0]);
+        close(end[1]);
         execvp(word[0], word);
         fprintf(stderr, "plugflow: %s: %s; CC and CXX of the environment name other compilers\n", word[0],
                 strerror(errno));
         _exit(127);
     }
+    close(end[1]);
+    pass_on(end[0], said, sizeof said);
+    close(end[0]);
     waitpid(child, &status, 0);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+    useless = build_hints(said);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && !useless)
         return 0;
+    if (useless)
+        unlink(object);
     return error_set(err, ERR_PLUGIN, "the compiler did not accept it; the lines above say why");
 }
 
 int cli_build(const cli *o, error *err)
 {
     static const char *const flags[] = {
-        "-O3", "-march=native", "-fno-math-errno", "-ffp-contract=fast", "-fPIC", "-shared", "-Wall"};
+        "-O3",     "-march=native", "-fno-math-errno", "-ffp-contract=fast",         "-fPIC",
+        "-shared", "-Wall",         "-Wshadow=local",  "-Wno-unknown-warning-option"};
     char source[PATH_MAX], object[PATH_MAX], room[PATH_MAX], include[PATH_MAX + 8], *word[MOST_WORDS];
     int n, is_cpp;
 
@@ -121,7 +152,7 @@ int cli_build(const cli *o, error *err)
     word[n] = NULL;
     for (int i = 0; i < n; i++)
         printf("%s%s", word[i], i + 1 < n ? " " : "\n");
-    TRY(compile(word, err));
-    printf("%s\n", object);
+    TRY(compile(word, object, err));
+    printf("%s\n\n  plugflow test %s%s\n", object, *object == '/' || *object == '.' ? "" : "./", object);
     return 0;
 }

@@ -49,6 +49,22 @@ static void on_call(void *ctx, const char *plugin, const char *term, const char 
     watched_enter(t->w, subject, what);
 }
 
+/* A case finds a plugin by the name of its file. */
+static void check_name(selftest *s, const char *path, const char *name)
+{
+    const char *file = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
+    const size_t n = strlen(name);
+    char text[500];
+
+    if (strncmp(file, name, n) == 0 && strcmp(file + n, ".so") == 0)
+        return;
+    s->failed++;
+    snprintf(text, sizeof text,
+             "the file %.180s holds a plugin \"%.180s\": they must have the same name, by which a case finds it",
+             file, name);
+    s->line(s->ctx, 0, text);
+}
+
 /* Loads the plugin that the operand means. */
 static int load(const cli *o, watched *w, registry *r, term_file **file, const term_plugin **p,
                 const pf_solver **solver, const char **only, error *err)
@@ -79,19 +95,6 @@ static int load(const cli *o, watched *w, registry *r, term_file **file, const t
         status = error_set(err, ERR_PLUGIN, "%s: loading it %s", name, why);
     surroundings_release(&before);
     return status;
-}
-
-/* A case looks for a plugin by its name, so a file of another name is not found, or refused. */
-static void note_name(const term_plugin *p)
-{
-    const char *slash = strrchr(p->path, '/'), *file = slash ? slash + 1 : p->path;
-    const size_t n = strlen(p->d.name);
-
-    if (strncmp(file, p->d.name, n) != 0 || strcmp(file + n, ".so") != 0)
-        fprintf(stderr,
-                "note: the file is %s and the plugin is called \"%s\": a case finds it with --plugin FILE only; "
-                "name the file %s.so\n",
-                file, p->d.name, p->d.name);
 }
 
 static int finish(const cli *o, const selftest *s, const char *subject, error *err)
@@ -132,7 +135,8 @@ static int test(watched *w, void *arg, error *err)
     }
     if (!o->json)
         printf("%s %s (%s)\n", p->d.name, p->d.version, p->path);
-    note_name(p);
+    if (f)
+        check_name(&s, f->path, p->d.name);
     TRY(selftest_run(&s, p, only, err));
     return finish(o, &s, p->d.name, err);
 }

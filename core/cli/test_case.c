@@ -4,6 +4,7 @@
  * taken as the assembly is about to compute them, at the initial state and at a random one near it. */
 #include "base/random.h"
 #include "cli/test.h"
+#include "run/showing.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -78,18 +79,32 @@ static void report(case_test *c)
     }
 }
 
-/* At the initial state, and at a random one. */
-static int evaluate(problem *p, case_test *c, error *err)
+/* All terms at a state: equations with the properties that they take, what is kept, what is shown.  A term may
+ * refuse the state; what came before it has been seen. */
+static int evaluate_at(run *r, assembly_state *st, double *kept, error *err)
 {
+    newton_system *sys = &r->p->system;
+
+    TRY(assembly_run(&sys->assembly, st, sys->residual, NULL, 0, err));
+    if (r->p->space.kept.n)
+        TRY(assembly_keep(&sys->assembly, st, kept, err));
+    return showing_look(r, st, err);
+}
+
+/* At the initial state, and at a random one. */
+static int evaluate(run *r, case_test *c, error *err)
+{
+    problem *p = r->p;
     const space *s = &p->space;
     newton_system *sys = &p->system;
     const uint8_t *idle = p->bodies.now ? p->bodies.now->idle : sys->assembly.none_idle;
     const assembly_watch watch = {look, c};
     const double shift = p->description.time.unsteady ? 1.5 / p->description.time.step : 0;
     unsigned long long random = RANDOM_SEED;
-    double *x;
+    double *x, *kept;
 
     ARENA_NEW(&p->memory, x, s->n_dof, err);
+    ARENA_NEW(&p->memory, kept, s->kept.n_value + 1, err);
     memcpy(x, p->state.x, (size_t)s->n_dof * sizeof *x);
     for (int round = 0; round < 2; round++) {
         assembly_state st = {.t = p->description.time.start,
@@ -108,8 +123,7 @@ static int evaluate(problem *p, case_test *c, error *err)
             x[i] += round == 0 || idle[i] || s->fixed[i] & SPACE_AWAY ? 0 : 2 * random_next(&random) - 1;
             sys->step[i] = shift * x[i];
         }
-        /* a term may refuse such a state; what came before it has been seen */
-        if (assembly_run(&sys->assembly, &st, sys->residual, NULL, 0, &ignored) && !ignored.retry && round == 0) {
+        if (evaluate_at(r, &st, kept, &ignored) && !ignored.retry && round == 0) {
             *err = ignored;
             return err->code;
         }
@@ -122,12 +136,14 @@ int cli_test_case(const cli *o, selftest *s, error *err)
 {
     cli of_case = *o;
     cli_case *k = malloc(sizeof *k);
+    run *r = calloc(1, sizeof *r);
     case_test *c = calloc(1, sizeof *c);
     char plugin[128] = "", *dot;
     int status;
 
-    if (!k || !c) {
+    if (!k || !r || !c) {
         free(k);
+        free(r);
         free(c);
         return error_memory(err, "case", sizeof *k);
     }
@@ -143,15 +159,21 @@ int cli_test_case(const cli *o, selftest *s, error *err)
     status = cli_open(&of_case, k, err);
     if (!status)
         status = problem_initial(&k->p, err);
+    r->p = &k->p;
     if (!status)
-        status = evaluate(&k->p, c, err);
+        status = showing_open(r, err);
+    if (!status)
+        status = evaluate(r, c, err);
     if (!status)
         report(c);
     if (!status && s->passed + s->failed == 0)
         status = error_set(err, ERR_USAGE, "no term of %s is on in %s", o->n_operand ? o->operand[0] : "any plugin",
                            o->case_path);
+    showing_close(r);
+    arena_free(&r->memory);
     cli_close(k);
     free(k);
+    free(r);
     free(c);
     return status;
 }

@@ -15,8 +15,7 @@ struct showing {
     shown shown;
     int evaluated, projected; /* of the solution that r->x is */
     int rated;                /* some term reads rates        */
-    double *dot;              /* [n_dof] */
-    double *history;          /* [n_dof] */
+    double *dot, *history;    /* [n_dof] */
     double *row;              /* of integrals.csv */
     moving_frame frame;       /* paths of rates near moving bodies; memory is that of now */
 };
@@ -171,6 +170,11 @@ static int evaluate(run *r, error *err)
         TRY(bodies_check(&p->bodies, err)); /* paths asked for their levels */
     s->evaluated = 1;
     return 0;
+}
+
+int showing_look(run *r, const assembly_state *at, error *err)
+{
+    return r->showing ? shown_evaluate(&r->showing->shown, *at, err) : 0;
 }
 
 /* Whether a term has nothing to say yet: it reads rates, and no step has been made. */

@@ -35,6 +35,8 @@ int showing_take(run *r, error *err); /* what they are now: before the next two 
 void showing_value(const run *r, int field, const located *at, const body_place *in, double *v);
 /* The part of a file of fields. */
 vtu_more showing_file(const run *r);
+/* Evaluates the terms at this state; whoever watches it sees them. */
+int showing_look(run *r, const assembly_state *at, error *err);
 /* Mean over its points. */
 const double *showing_mean(const run *r, int field);
 

@@ -23,6 +23,7 @@ typedef struct bench {
     int quiet;       /* what is right is not told                                                 */
     int captured;    /* values are those of a case                                               */
     int initialised; /* the term's init has been called                                          */
+    uint32_t live;   /* bit i: parameter i was seen to change something                          */
     void *params, *other_params;
     double *in[TERM_MAX_SLOTS], *out[TERM_MAX_SLOTS], *again[TERM_MAX_SLOTS];
     pf_complex *z[TERM_MAX_SLOTS], *w[TERM_MAX_SLOTS]; /* of the twin */
@@ -66,7 +67,7 @@ void bench_repeat(double *row);
 
 /* Other values in all inputs, in the ranges of their slots. */
 void bench_random_inputs(bench *k);
-/* The same but for properties: a term is linear at given ones. */
+/* The same of unknowns alone: a term is linear in these at given properties, data, old values and memory. */
 void bench_random_state(bench *k);
 /* 1 if some slot has a range. */
 int bench_has_range(const bench *k);
@@ -74,6 +75,11 @@ int bench_has_range(const bench *k);
 void bench_put_param(bench *k, const pf_param *p, const double *v);
 /* How many draws show all branches of choices and booleans, and random values of the others. */
 int bench_draws(const bench *k);
+/* Unknowns, old values and memory of a fluid at rest, all zero; or scalars below zero: where their ranges allow it.
+ */
+void bench_put_state(bench *k, int negative);
+/* Another number of one parameter, the n-th that is tried. */
+void bench_put_other(bench *k, const pf_param *p, int n);
 /* Parameters of a draw, the first of which are the defaults; 0: the term's check refuses them. */
 int bench_params(bench *k, int draw);
 

@@ -60,24 +60,50 @@ int bench_call(bench *k, double *const *out, const char *what)
     return sound && status == 0;
 }
 
+static int start(bench *k, int n_body, int unsteady, char *why, size_t n, int *sound)
+{
+    const pf_setup setup = {.size = sizeof setup,
+                            .dim = (uint32_t)k->dim,
+                            .n_body = (uint32_t)n_body,
+                            .unsteady = (uint32_t)unsteady,
+                            .host = &term_host};
+    int status;
+
+    *why = 0;
+    bench_enter(k, "init");
+    status = k->t->init(k->params, &setup, why, n);
+    guard_keep(&k->guard); /* the parameters are init's to write */
+    *sound = bench_left(k, "init");
+    k->initialised = *sound && status == 0;
+    return status;
+}
+
 int bench_init(bench *k)
 {
-    const pf_setup setup = {
-        .size = sizeof setup, .dim = (uint32_t)k->dim, .n_body = 2, .unsteady = 1, .host = &term_host};
-    char why[400] = "", *text = why;
-    int status;
+    static const int bodies[] = {2, 1, 0, 3, 4, 5, 6, 7, 8};
+    enum { N = sizeof bodies / sizeof *bodies };
+    char first[400], why[400];
+    int sound, status;
 
     if (!k->t->init)
         return 1;
-    bench_enter(k, "init");
-    status = k->t->init(k->params, &setup, why, sizeof why);
-    guard_keep(&k->guard); /* the parameters are init's to write */
-    if (!bench_left(k, "init"))
-        return 0;
-    if (status)
-        bench_line(k, 0, "%s  init returned %d: %s", k->t->name, status, *text ? text : "without saying why");
-    k->initialised = status == 0;
-    return k->initialised;
+    status = start(k, 2, 1, first, sizeof first, &sound);
+    if (!status || !sound || k->draw) /* drawn parameters may be refused, as by its check */
+        return k->initialised;
+    for (int i = 1; i < 2 * N; i++) {
+        const int n = bodies[i % N], unsteady = i < N;
+
+        if (start(k, n, unsteady, why, sizeof why, &sound) == 0 && sound)
+            bench_line(k, 1, "%s  init refuses 2 bodies, unsteady (%s); tested with %d, %s", k->t->name,
+                       *first ? first : "without saying why", n, unsteady ? "unsteady" : "steady");
+        if (k->initialised || !sound)
+            return k->initialised;
+    }
+    bench_line(k, 0,
+               "%s  init returned %d: %s -- to each of 0 to 8 bodies, unsteady and steady, in %dD with parameters "
+               "at their defaults; in the conditions of a case: plugflow test --case CASE",
+               k->t->name, status, *first ? first : "without saying why", k->dim);
+    return 0;
 }
 
 void bench_done(bench *k)

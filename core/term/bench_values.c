@@ -33,12 +33,12 @@ static double within(bench *k, double low, double high)
 }
 
 /* Scalars that are no gradients are positive, as temperatures and viscosities are. */
-static void random_inputs(bench *k, int properties)
+static void random_inputs(bench *k, int all)
 {
     for (uint32_t i = 0; i < k->t->n_in; i++) {
         const pf_slot *s = &k->t->in[i];
 
-        for (int c = 0; (properties || s->eval != PF_PROPERTY) && c < bench_components(k, s); c++) {
+        for (int c = 0; (all || term_is_unknown(s)) && c < bench_components(k, s); c++) {
             for (int l = 0; l < BENCH_N; l++)
                 k->in[i][c * BENCH_LD + l] = s->min < s->max         ? within(k, s->min, s->max)
                                              : s->shape == PF_SCALAR ? bench_number(k, 0.5, 2.5)
@@ -56,6 +56,26 @@ void bench_random_inputs(bench *k)
 void bench_random_state(bench *k)
 {
     random_inputs(k, 0);
+}
+
+/* A state that a field has now and then whatever it is: zero, or a number below. */
+void bench_put_state(bench *k, int negative)
+{
+    for (uint32_t i = 0; i < k->t->n_in; i++) {
+        const pf_slot *s = &k->t->in[i];
+        const int ranged = s->min < s->max, changes = negative ? s->shape == PF_SCALAR : 1;
+
+        if (!(term_slot_field(s) || s->eval == PF_STATE) || !changes || (ranged && s->min >= 0) ||
+            (ranged && !negative && s->max <= 0))
+            continue;
+        for (int j = 0; j < bench_components(k, s) * BENCH_LD; j++)
+            if (j % BENCH_LD < BENCH_N)
+                k->in[i][j] = !negative ? 0
+                              : ranged  ? within(k, s->min, fmin(s->max, 0))
+                                        : -bench_number(k, 0.5, 2.5);
+        for (int c = 0; c < bench_components(k, s); c++)
+            bench_repeat(k->in[i] + c * BENCH_LD);
+    }
 }
 
 void bench_put_param(bench *k, const pf_param *p, const double *v)
@@ -140,6 +160,22 @@ static int branch(const bench *k, uint32_t i, int draw)
     for (uint32_t j = 0; j < i; j++)
         stride *= stride < MOST_DRAWS ? branches(&k->t->param[j]) : 1;
     return (first + (stride < MOST_DRAWS ? draw / stride : draw + draw / branches(p) * (int)i)) % branches(p);
+}
+
+/* Another number of this parameter alone: random, an end of its range, or a large one. */
+void bench_put_other(bench *k, const pf_param *p, int n)
+{
+    double v[3] = {random_param(k, p), bench_number(k, -1, 1), bench_number(k, -1, 1)};
+
+    if (p->type == PF_T_BOOL || p->type == PF_T_CHOICE)
+        *v = n % branches(p);
+    else if (p->min < p->max && n < 2 && fabs(n ? p->max : p->min) < WIDE)
+        *v = n ? p->max : p->min;
+    else if (!(p->min < p->max) && n == 0)
+        *v *= 1e4;
+    else if (!(p->min < p->max) && n == 1)
+        *v = 1e-9;
+    bench_put_param(k, p, v);
 }
 
 static void say_param(bench *k, const pf_param *p, const double *v)

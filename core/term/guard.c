@@ -124,3 +124,15 @@ int guard_broken(guard *g, char *text, size_t n)
     }
     return broken;
 }
+
+const char *guard_read(const guard *g, double v, char *text, size_t n)
+{
+    const uint64_t sign = 1ULL << 63;
+    uint64_t bits;
+
+    memcpy(&bits, &v, sizeof bits);
+    for (int i = 0; i < g->n; i++)
+        if ((bits & ~sign) == g->array[i].mark)
+            return title(&g->array[i], text, n);
+    return NULL;
+}

@@ -32,6 +32,8 @@ typedef struct guard {
 void *guard_new(guard *g, const char *kind, const char *name, size_t count, size_t unit, size_t row, int fixed);
 /* Before a call: what must not change is copied. */
 void guard_keep(guard *g);
+/* Whether a number was computed from one of the zones, which of them: "output \"v\""; else NULL. */
+const char *guard_read(const guard *g, double v, char *text, size_t n);
 /* After a call: 1 and what was written where it should not be (and all is as it was); else 0. */
 int guard_broken(guard *g, char *text, size_t n);
 

@@ -14,8 +14,15 @@ static int has_dim(const pf_term *t, int dim)
 /* With one draw of the parameters. */
 static void test_draw(bench *k)
 {
-    if (bench_init(k) && selftest_values(k))
+    const int before = k->s->failed;
+
+    if (bench_init(k) && selftest_values(k)) {
         selftest_jacobian(k);
+        if (k->s->failed == before)
+            selftest_states(k);
+        if (k->s->failed == before)
+            selftest_keys(k);
+    }
     bench_done(k);
 }
 
@@ -41,8 +48,11 @@ static void test_draws(bench *k)
     bench_params(k, 0);
 }
 
-static int test_term(selftest *s, const term_plugin *p, const pf_term *t, error *err)
+static int test_term(selftest *s, const term_plugin *p, const pf_term *t, uint32_t *live, error *err)
 {
+    const int before = s->failed;
+
+    *live = 0;
     for (int dim = 2; dim <= 3; dim++) {
         bench *k;
         int status;
@@ -52,8 +62,12 @@ static int test_term(selftest *s, const term_plugin *p, const pf_term *t, error 
         if (!(k = malloc(sizeof *k)))
             return error_memory(err, "test of a term", sizeof *k);
         status = bench_create(k, s, p, t, dim, err);
+        k->live = *live;
         if (!status)
             test_draws(k);
+        *live = k->live;
+        if (!status && s->failed == before && !(dim == 2 && has_dim(t, 3)))
+            selftest_takes(k);
         for (uint32_t e = 0; e < t->n_example && !status; e++)
             if ((int)t->example[e].dim == dim)
                 selftest_example(k, &t->example[e]);
@@ -66,12 +80,23 @@ static int test_term(selftest *s, const term_plugin *p, const pf_term *t, error 
 
 int selftest_run(selftest *s, const term_plugin *p, const char *only, error *err)
 {
-    int found = 0;
+    const int before = s->failed;
+    uint32_t *live = calloc(p->d.n_term + 1, sizeof *live);
+    int found = 0, status = 0;
 
-    for (uint32_t i = 0; i < p->d.n_term; i++)
+    if (!live)
+        return error_memory(err, "test of a term", 0);
+    for (uint32_t i = 0; i < p->d.n_term && !status; i++) {
+        live[i] = UINT32_MAX; /* of terms that are not tested nothing is said */
         if (!only || strcmp(p->term[i].name, only) == 0) {
             found = 1;
-            TRY(test_term(s, p, &p->term[i], err));
+            status = test_term(s, p, &p->term[i], &live[i], err);
         }
-    return found ? 0 : error_set(err, ERR_USAGE, "plugin \"%s\" has no term \"%s\"", p->d.name, only);
+    }
+    if (!status && s->failed == before)
+        selftest_dead_keys(s, p, live);
+    free(live);
+    return status  ? status
+           : found ? 0
+                   : error_set(err, ERR_USAGE, "plugin \"%s\" has no term \"%s\"", p->d.name, only);
 }

@@ -57,7 +57,7 @@ static int has_block(const pf_term *t, uint32_t o, uint32_t i)
     return term_is_derived(&t->in[i]) && t->out[o].eval != PF_STATE;
 }
 
-static int derive(bench *k, enum term_derivative how, double **jac, const char *what)
+int selftest_derive(bench *k, enum term_derivative how, double **jac, const char *what)
 {
     const pf_term *t = k->t;
     double *given[TERM_MAX_SLOTS * TERM_MAX_SLOTS];
@@ -85,7 +85,7 @@ static int twin_derives(bench *k)
 {
     const pf_term *t = k->t;
 
-    if (!derive(k, TERM_FD, k->jac, "differences"))
+    if (!selftest_derive(k, TERM_FD, k->jac, "differences"))
         return 0;
     for (uint32_t o = 0; o < t->n_out; o++)
         for (uint32_t i = 0; i < t->n_in; i++) {
@@ -135,13 +135,13 @@ static void test_jacobian(bench *k)
 
     for (uint32_t i = 0; i < t->n_in; i++)
         unknowns += term_is_derived(&t->in[i]);
-    if (!unknowns || !derive(k, t->residual_c ? TERM_COMPLEX : TERM_FD, k->truth, how))
+    if (!unknowns || !selftest_derive(k, t->residual_c ? TERM_COMPLEX : TERM_FD, k->truth, how))
         return;
     /* states of cases lie in kinks, as |u| has at rest, of which differences say nothing */
     if (t->residual_c && !k->captured && !twin_derives(k))
         return;
     test_depends(k);
-    if (t->jacobian && !derive(k, TERM_ANALYTIC, k->jac, "Jacobian"))
+    if (t->jacobian && !selftest_derive(k, TERM_ANALYTIC, k->jac, "Jacobian"))
         return;
     for (uint32_t o = 0; o < t->n_out; o++)
         for (uint32_t i = 0; i < t->n_in; i++)
@@ -160,10 +160,10 @@ static void test_linearity(bench *k)
 
     if (!(t->flags & PF_LINEAR) || k->captured)
         return;
-    if (!derive(k, how, k->truth, "derivative"))
+    if (!selftest_derive(k, how, k->truth, "derivative"))
         return;
     bench_random_state(k);
-    if (!derive(k, how, k->jac, "derivative"))
+    if (!selftest_derive(k, how, k->jac, "derivative"))
         return;
     for (uint32_t j = 0; j < t->n_out * t->n_in; j++) {
         const uint32_t o = j / t->n_in, i = j % t->n_in;

@@ -55,14 +55,17 @@ static void test_outputs(bench *k)
             double a = k->out[o][i], b = k->again[o][i];
             int kept = a == 7.7e77 && b == -7.7e77, added = fabs(a - b) > 1e70;
             const char *why;
-            char entry[160];
+            char entry[160], read[240], zone[160];
 
             if (i % BENCH_LD >= BENCH_N)
                 continue;
             if (kept && outputs_over(k, k->again, 0))
                 added = k->again[o][i] != 0; /* numbers that are small beside 7.7e77 */
-            why = !isfinite(a)                    ? "is not a finite number on random values"
-                  : added                         ? "is added to; the residual must assign, not add"
+            snprintf(read, sizeof read, "comes from outside of %s: a slot is read past its end",
+                     guard_read(&k->guard, a, zone, sizeof zone) ? zone : "");
+            why = guard_read(&k->guard, a, zone, sizeof zone) ? read
+                  : !isfinite(a)                              ? "is not a finite number on random values"
+                  : added                                     ? "is added to; the residual must assign, not add"
                   : kept                          ? "is not written; the residual must assign every output"
                   : memcmp(&a, &b, sizeof a) != 0 ? "differs between two calls with the same values"
                                                   : NULL;

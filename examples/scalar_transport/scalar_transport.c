@@ -8,7 +8,8 @@
  * velocity u of momentum. */
 #include <plugflow/term.h>
 
-#define NO_ZERO          1e-300 /* so that fluid without conductivity may be at rest */
+/* So that fluid without conductivity may be at rest; above the square of a complex step, 1e-200. */
+#define NO_ZERO          1e-150
 #define INVERSE_ESTIMATE 60.0   /* C in h |lap s| <= sqrt(C) |grad s| of second-order elements */
 
 /* The keys; each term lists its own. */

@@ -8,7 +8,7 @@
  * still in Newton's method. */
 #include <plugflow/term.h>
 
-#define NO_ZERO          1e-300 /* so that fluid without viscosity may be at rest */
+#define NO_ZERO          1e-150 /* so that fluid without viscosity may be at rest; above the square of a complex step, 1e-200 */
 #define BY_TIME          2.0    /* tau is less than half of what the time scheme takes */
 #define INVERSE_ESTIMATE 60.0   /* C in h |lap v| <= sqrt(C) |grad v| of second-order elements */
 

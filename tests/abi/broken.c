@@ -48,6 +48,15 @@ static pf_example examples[] = {{"one point", 2, example_params, example_in, exa
 
 static uint8_t depends[] = {1, 1, 0};
 
+/* Some keys are for it alone. */
+static int accepts(const void *params, char *err, size_t n)
+{
+    const struct fluid *f = params;
+
+    (void)err, (void)n;
+    return f->order > 100;
+}
+
 static pf_term term = {
     .size = sizeof(pf_term),
     .where = PF_FLUID,
@@ -70,6 +79,7 @@ static pf_term term = {
     .residual = convection_real,
     .residual_c = convection_complex,
     .jacobian = jacobian,
+    .check = accepts,
 };
 static const pf_term *terms[] = {&term, &term};
 

@@ -2,7 +2,7 @@
  *
  * Each function that term.h and dual.hpp have: X(number, value, derivative by hand), of T[i]. */
 #define LIST(X)                                                                                                    \
-    X(0, sqrt(2 + T[i]), 0.5 / sqrt(2 + T[i]))                                                                     \
+    X(0, sqrt(3 + T[i]), 0.5 / sqrt(3 + T[i]))                                                                     \
     X(1, exp(T[i]), exp(T[i]))                                                                                     \
     X(2, log(3 + T[i]), 1 / (3 + T[i]))                                                                            \
     X(3, sin(T[i]), cos(T[i]))                                                                                     \

@@ -10,7 +10,7 @@
 #define ADD_SLOPE(WEIGHT, VALUE, SLOPE) jac[0][i] += (1 + 0.1 * (WEIGHT)) * (SLOPE);
 
 struct functions {
-    double unused;
+    double added;
 
     template <class num> int point(const pf_batch &b, const num *const *in, num *const *out) const
     {
@@ -22,7 +22,7 @@ struct functions {
             num sum = 0;
 
             LIST(ADD_VALUE)
-            out[0][i] = sum;
+            out[0][i] = sum + added;
         }
         return PF_OK;
     }
@@ -41,7 +41,7 @@ static int jacobian(const pf_batch *b, const double *const *in, double *const *j
 static const pf_field fields[] = {{"T", "K", "temperature", PF_SCALAR, 2, PF_ON_MESH, nullptr, nullptr, nullptr}};
 static const pf_slot in[] = {{"T", "T", PF_VALUE, PF_SCALAR}}, out[] = {{"s", "T", PF_VALUE, PF_SCALAR}};
 static const pf_param keys[] = {
-    {"unused", "1", "nothing", PF_T_REAL, 0, offsetof(functions, unused), 0, 0, 0, nullptr}};
+    {"added", "1", "added", PF_T_REAL, 0, offsetof(functions, added), 0, 0, 0, nullptr}};
 
 const pf_plugin *pf_plugin_entry(const pf_host *, char *, size_t)
 {
