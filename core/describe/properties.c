@@ -157,8 +157,8 @@ static void check_number(description *d, const term_use *u, const case_block *li
         reader_open(&own, d->c, line, "");
         if (reader_has(&own, q->name) || !is_number(d, q->name))
             case_wrong(d->c, reader_has(&own, q->name) ? line : case_find(d->c, "fluid", 0), q->name,
-                   "\"%s\" is given here, but %s publishes it: this number would not be used; take it out", q->name,
-                   name_of_use(law).s);
+                       "\"%s\" is given here, but %s publishes it: this number would not be used; take it out",
+                       q->name, name_of_use(law).s);
     }
 }
 

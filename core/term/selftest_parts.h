@@ -14,7 +14,8 @@ int selftest_derive(bench *k, enum term_derivative how, double **jac, const char
 void selftest_jacobian(bench *k);
 /* Outputs and derivatives of a fluid at rest, and of scalars below zero; leaves random values. */
 void selftest_states(bench *k);
-/* Looks for parameters that change something, to k->live; and of all terms of a plugin: those that change nothing. */
+/* Looks for parameters that change something, to k->live; and of all terms of a plugin: those that change nothing.
+ */
 void selftest_keys(bench *k);
 void selftest_dead_keys(selftest *s, const term_plugin *p, const uint32_t *live);
 /* Every property that the term takes must come from somewhere. */

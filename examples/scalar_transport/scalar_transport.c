@@ -10,7 +10,7 @@
 
 /* So that fluid without conductivity may be at rest; above the square of a complex step, 1e-200. */
 #define NO_ZERO          1e-150
-#define INVERSE_ESTIMATE 60.0   /* C in h |lap s| <= sqrt(C) |grad s| of second-order elements */
+#define INVERSE_ESTIMATE 60.0 /* C in h |lap s| <= sqrt(C) |grad s| of second-order elements */
 
 /* The keys; each term lists its own. */
 #define CONDUCTIVITY REAL(conductivity, "W/(m K)", "thermal conductivity", .flags = PF_REQUIRED, PF_NOT_NEGATIVE)

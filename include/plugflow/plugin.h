@@ -227,8 +227,8 @@ enum pf_term_flag {
     /* PF_FACET: on where a boundary line has the name of its PF_DATA slot as a key:
      * boundary "left" { heat_flux = 3 } */
     PF_BY_BOUNDARY = 8,
-    /* PF_SOLID, PF_SURFACE: its rows of particle fields, with the sign changed, are what the fluid does to the body.
-     * Without it what the term gives a body is missing in particles.csv (1.1) */
+    /* PF_SOLID, PF_SURFACE: its rows of particle fields, with the sign changed, are what the fluid does to the
+     * body. Without it what the term gives a body is missing in particles.csv (1.1) */
     PF_FLUID_FORCE = 16,
     PF_METRIC = 32,        /* it reads pf_batch.metric; not on PF_CUT and PF_PAIR (1.3) */
     PF_WALL_DISTANCE = 64, /* it reads pf_batch.wall_distance (1.4)                  */

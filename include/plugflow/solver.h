@@ -112,7 +112,8 @@ typedef const pf_solver *pf_solver_entry_fn(char *err, size_t nerr);
 PF_EXPORT const pf_solver *pf_solver_entry(char *err, size_t nerr);
 
 /* A plugin of one solver, description and entry:
- *     PF_SOLVER(.name = "klu", .version = "1.0", .doc = "...", .create = create, ..., PF_PARAMS(struct options, ...)) */
+ *     PF_SOLVER(.name = "klu", .version = "1.0", .doc = "...", .create = create, ..., PF_PARAMS(struct options,
+ * ...)) */
 #define PF_SOLVER(...)                                                                                             \
     static const pf_solver pf_solver_here = {.size = sizeof(pf_solver),                                            \
                                              .major = PF_SOLVER_MAJOR,                                             \

@@ -8,9 +8,10 @@
  * still in Newton's method. */
 #include <plugflow/term.h>
 
-#define NO_ZERO          1e-150 /* so that fluid without viscosity may be at rest; above the square of a complex step, 1e-200 */
-#define BY_TIME          2.0    /* tau is less than half of what the time scheme takes */
-#define INVERSE_ESTIMATE 60.0   /* C in h |lap v| <= sqrt(C) |grad v| of second-order elements */
+#define NO_ZERO                                                                                                    \
+    1e-150 /* so that fluid without viscosity may be at rest; above the square of a complex step, 1e-200 */
+#define BY_TIME          2.0  /* tau is less than half of what the time scheme takes */
+#define INVERSE_ESTIMATE 60.0 /* C in h |lap v| <= sqrt(C) |grad v| of second-order elements */
 
 #define IS_STEADY (!(b->shift > 0))
 #define GRAD_DIV_KEYS                                                                                              \

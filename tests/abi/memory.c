@@ -50,8 +50,7 @@ TERM(structure, PF_FLUID, IN(grad_u, STATE(old_structure, structure, SCALAR)),
 }
 
 /* the same as a law, with the structure at the end of the last step */
-TERM(law, PF_CELL, IN(STATE(old_structure, structure, SCALAR)),
-     OUT(PROPERTY(viscosity, "Pa s", "viscosity")),
+TERM(law, PF_CELL, IN(STATE(old_structure, structure, SCALAR)), OUT(PROPERTY(viscosity, "Pa s", "viscosity")),
      PARAMS(REAL(mu_0, "Pa s", "mu_0", .dflt = 0.5), REAL(mu_s, "Pa s", "mu_s", .dflt = 3)), .flags = PF_OPTIONAL,
      .doc = "\\mu=\\mu_0+\\mu_s\\lambda", .cite = "Moore 1959")
 {

@@ -34,8 +34,8 @@ static int tested(const char *name, char *output, size_t size)
     size_t n;
     int status;
 
-    snprintf(command, sizeof command, "ulimit -c 0; PLUGFLOW_CALL_SECONDS=0.5 '%s' test '%s/%s.so' 2>&1", setting("PLUGFLOW_PROGRAM"),
-             setting("PLUGFLOW_FAULTS_DIR"), name);
+    snprintf(command, sizeof command, "ulimit -c 0; PLUGFLOW_CALL_SECONDS=0.5 '%s' test '%s/%s.so' 2>&1",
+             setting("PLUGFLOW_PROGRAM"), setting("PLUGFLOW_FAULTS_DIR"), name);
     p = popen(command, "r");
     assert_non_null(p);
     n = fread(output, 1, size - 1, p);
