@@ -3,7 +3,8 @@
  * Sound terms of all kinds, with Jacobians by hand, in one file: copies of it with one fault each, made by sed as
  * faults.txt says, must not pass plugflow test.  The file includes itself (SELF) twice, for the equations in real
  * and in complex numbers. */
-/* clang-format off: sed needs lines as they are */
+/* Sed needs lines as they are. */
+/* clang-format off */
 #ifndef EQUATIONS
 #include <plugflow/fluid.h>
 
@@ -42,7 +43,7 @@ static int stress_jacobian(const pf_batch *b, const double *const *in, double *c
             for (uint32_t i = 0; i < ld; i++) {
                 dG[((a * d + k) * dd + a * d + k) * ld + i] += f->viscosity; /* straight */
                 dG[((a * d + k) * dd + k * d + a) * ld + i] += f->viscosity; /* transposed */
-                dp[(a * d + k) * ld + i] = a == k ? -1 : 0;                  /* pressure */
+                dp[(a * d + k) * ld + i] = a == k ? -1 : 0; /* pressure */
             }
     return PF_OK;
 }
@@ -57,7 +58,7 @@ static int convection_jacobian(const pf_batch *b, const double *const *in, doubl
     for (uint32_t a = 0; a < d; a++)
         for (uint32_t k = 0; k < d; k++)
             for (uint32_t i = 0; i < ld; i++) {
-                du[(a * d + k) * ld + i] = f->density * G[(a * d + k) * ld + i];   /* by u */
+                du[(a * d + k) * ld + i] = f->density * G[(a * d + k) * ld + i]; /* by u */
                 dG[(a * d * d + a * d + k) * ld + i] = f->density * u[k * ld + i]; /* by grad u */
             }
     return PF_OK;
@@ -145,7 +146,7 @@ static int relax_jacobian(const pf_batch *b, const double *const *in, double *co
     (void)in;
     for (uint32_t c = 0; c < n; c++)
         for (uint32_t i = 0; i < b->ld; i++) {
-            jac[0][(c * n + c) * b->ld + i] = 1;        /* rate */
+            jac[0][(c * n + c) * b->ld + i] = 1; /* rate */
             jac[1][(c * n + c) * b->ld + i] = f->slope; /* relaxation */
         }
     return PF_OK;
@@ -155,13 +156,12 @@ static int relax_jacobian(const pf_batch *b, const double *const *in, double *co
 
 static const char *const models[] = {"power", "carreau", NULL};
 #define LAW                                                                                                        \
-    PF_PARAMS(struct law,                                                                                          \
-              PF_NUMBER(struct law, density, "kg/m^3", "mass per volume", .dflt = 1.5, PF_NOT_NEGATIVE),           \
-              PF_NUMBER(struct law, viscosity, "Pa s", "viscosity", .dflt = 2.5, PF_NOT_NEGATIVE),                 \
+    PF_PARAMS(struct law, PF_NUMBER(struct law, density, "kg/m^3", "mass per volume", .dflt = 1.5, PF_NOT_NEGATIVE), \
+              PF_NUMBER(struct law, viscosity, "Pa s", "viscosity", .dflt = 2.5, PF_NOT_NEGATIVE),                   \
               PF_NUMBER(struct law, n, "1", "exponent", .dflt = 1, .min = 0.1, .max = 3),                          \
               PF_NUMBER(struct law, eps, "1/s", "rate that regularises", .dflt = 0.1, .min = 1e-3, .max = 10),     \
               PF_NUMBER(struct law, conductivity, "W/(m K)", "at 0 K", .dflt = 1, PF_NOT_NEGATIVE),                \
-              PF_NUMBER(struct law, slope, "1/s", "rate", .dflt = 3.5, PF_NOT_NEGATIVE),                           \
+              PF_NUMBER(struct law, slope, "1/s", "rate", .dflt = 3.5, PF_NOT_NEGATIVE),                             \
               {"field", "V/m", "electric field", PF_T_VECTOR, 0, offsetof(struct law, field)},                     \
               {"model", "1", "law", PF_T_CHOICE, 0, offsetof(struct law, model), 0, 0, 0, models},                 \
               {"thickens", "1", "adds the rate", PF_T_BOOL, 0, offsetof(struct law, thickens)})
@@ -333,7 +333,7 @@ static int F(convection)(const pf_batch *b, const NUM *const *in, NUM *const *ou
             sum = 0;
             for (uint32_t k = 0; k < d; k++)
                 sum += in[0][k * ld + i] * in[1][(a * d + k) * ld + i]; /* u . grad u */
-            out[0][a * ld + i] = f->density * sum;                      /* convection's output */
+            out[0][a * ld + i] = f->density * sum; /* convection's output */
         }
     return PF_OK; /* end of convection */
 }
