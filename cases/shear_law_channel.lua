@@ -6,7 +6,7 @@ case "Channel flow by a law of the shear rate"
 
 local n = param("n", 8, "cells across half of the channel")
 local law = param("law", "carreau", "carreau, cross or bingham")
-local m = param("m", 1000, "regularisation of bingham, s")
+local m = param("m", 300, "regularisation of bingham, s")
 local G, H = 4, 0.5
 local exponent, mu0, mu1, t = 0.4, 1, 0.02, 2      -- carreau, cross
 local mu, yield = 0.1, 0.8                         -- bingham: solid up to y = 0.2

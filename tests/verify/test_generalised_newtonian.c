@@ -68,7 +68,7 @@ static void a_bingham_fluid_has_a_plug(void **state)
 
     (void)state;
     for (int i = 0; i < 2; i++) {
-        const double m = i ? 1000 : 100;
+        const double m = i ? 300 : 50; /* far beyond, Newton's way depends on round-off */
 
         assert_ran(
             plugflow("run cases/shear_law_channel.lua --quiet --threads 1 --set n=16 --set law=bingham --set "
