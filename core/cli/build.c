@@ -4,6 +4,8 @@
 #include "cli/build.h"
 #include "cli/cli.h"
 
+#include "base/arena.h"
+
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
@@ -66,10 +68,10 @@ static int find_source(const char *operand, char source[PATH_MAX], error *err)
 }
 
 /* The words of a variable of the environment, or one word. */
-static int add_words(char **word, int n, const char *variable, const char *otherwise)
+static int add_words(char **word, int n, const char *variable, const char *otherwise, arena *memory)
 {
     const char *value = getenv(variable);
-    char *s = strdup(value && *value ? value : otherwise), *rest = NULL;
+    char *s = arena_strdup(memory, value && *value ? value : otherwise), *rest = NULL;
 
     for (char *w = s ? strtok_r(s, " ", &rest) : NULL; w && n < MOST_WORDS - 24; w = strtok_r(NULL, " ", &rest))
         word[n++] = w;
@@ -133,17 +135,18 @@ int cli_build(const cli *o, error *err)
         "-O3",     "-march=native", "-fno-math-errno", "-ffp-contract=fast",         "-fPIC",
         "-shared", "-Wall",         "-Wshadow=local",  "-Wno-unknown-warning-option"};
     char source[PATH_MAX], object[PATH_MAX], room[PATH_MAX], include[PATH_MAX + 8], *word[MOST_WORDS];
-    int n, is_cpp;
+    arena memory = {0};
+    int n, is_cpp, status;
 
     TRY(find_source(o->operand[0], source, err));
     is_cpp = strcmp(strrchr(source, '.'), ".cpp") == 0;
     snprintf(object, sizeof object, "%.*s.so", (int)(strrchr(source, '.') - source), source);
     snprintf(include, sizeof include, "-I%s", headers(room));
-    n = add_words(word, 0, is_cpp ? "CXX" : "CC", is_cpp ? "c++" : "cc");
+    n = add_words(word, 0, is_cpp ? "CXX" : "CC", is_cpp ? "c++" : "cc", &memory);
     word[n++] = is_cpp ? "-std=gnu++17" : "-std=gnu11";
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
         word[n++] = (char *)(intptr_t)flags[i];
-    n = add_words(word, n, is_cpp ? "CXXFLAGS" : "CFLAGS", "");
+    n = add_words(word, n, is_cpp ? "CXXFLAGS" : "CFLAGS", "", &memory);
     word[n++] = include;
     word[n++] = source;
     word[n++] = "-o";
@@ -152,7 +155,9 @@ int cli_build(const cli *o, error *err)
     word[n] = NULL;
     for (int i = 0; i < n; i++)
         printf("%s%s", word[i], i + 1 < n ? " " : "\n");
-    TRY(compile(word, object, err));
+    status = compile(word, object, err);
+    arena_free(&memory);
+    TRY(status);
     printf("%s\n\n  plugflow test %s%s\n", object, *object == '/' || *object == '.' ? "" : "./", object);
     return 0;
 }
