@@ -207,7 +207,8 @@ int main(int argc, char **argv)
         printf("plugflow %s\n", PF_VERSION);
         return 0;
     }
-    cli_catch_signals();
+    if (strcmp(argv[1], "test") != 0 && strcmp(argv[1], "build") != 0) /* these fork, which wants one thread */
+        cli_catch_signals();
     cli_catch_crashes();
     status = dispatch(argc, argv, &err);
     if (status && *err.text)
