@@ -253,6 +253,9 @@ void describe_replace(description *d, registry *r);
 /* surfaces.c: marks terms at surfaces of bodies that the case has no use for. */
 void describe_surfaces(description *d);
 void describe_leave_out(description *d);
+/* Terms that are on, by number: equations, then laws, then what is shown; NULL after the last.  *line: what
+ * switches it on. */
+term_use *describe_use(description *d, int i, const case_block **line);
 /* Memory of the terms that are on (kept.c). */
 int describe_kept(description *d, error *err);
 void describe_initial_kept(description *d, reader *r);

@@ -70,24 +70,6 @@ int describe_instance(description *d, reader *own, const value **inside, const c
 
 /* --- a term in the place of another --- */
 
-/* The uses of all kinds, one after the other; NULL after the last. */
-static term_use *use_at(description *d, int i, const case_block **block)
-{
-    term_list *list[] = {&d->law, &d->shown};
-
-    if (i < d->n_use) {
-        *block = d->use_block[i];
-        return &d->use[i];
-    }
-    i -= d->n_use;
-    for (int k = 0; k < 2; i -= list[k++]->n)
-        if (i < list[k]->n) {
-            *block = list[k]->block[i];
-            return &list[k]->use[i];
-        }
-    return NULL;
-}
-
 static int is_called(const term_use *u, const char *name, size_t n)
 {
     const size_t plugin = strlen(u->plugin->d.name), term = strlen(u->term->name);
@@ -140,7 +122,7 @@ static void replace(description *d, const term_use *u, const case_block *line, c
     const case_block *ignored;
     term_use *v;
 
-    for (int i = 0; (v = use_at(d, i, &ignored)); i++) {
+    for (int i = 0; (v = describe_use(d, i, &ignored)); i++) {
         const replacement *before = replacement_of(d, v->term);
 
         if (!is_called(v, name, n) || v->term == u->term)
@@ -167,7 +149,7 @@ void describe_replace(description *d, registry *r)
     const case_block *line;
     term_use *u;
 
-    for (int i = 0; (u = use_at(d, i, &line)); i++)
+    for (int i = 0; (u = describe_use(d, i, &line)); i++)
         for (const char *at = u->term->replaces ? u->term->replaces : ""; *at;) {
             size_t n = strcspn(at, " ");
 
@@ -211,7 +193,7 @@ int describe_start(description *d, error *err)
     const case_block *line;
     term_use *u;
 
-    for (int i = 0; (u = use_at(d, i, &line)); i++) {
+    for (int i = 0; (u = describe_use(d, i, &line)); i++) {
         char why[400] = "";
 
         if (term_start(u->plugin, u->term, u->params, d->dim, d->n_body, d->time.unsteady, why, sizeof why))
@@ -228,7 +210,7 @@ void describe_end(description *d)
     term_use *u;
 
     for (; d->n_started > 0; d->n_started--) {
-        u = use_at(d, d->n_started - 1, &line);
+        u = describe_use(d, d->n_started - 1, &line);
         term_end(u->plugin, u->term, u->params);
     }
 }

@@ -31,19 +31,6 @@ static int count(const description *d)
     return d->n_use + d->law.n + d->shown.n;
 }
 
-static term_use *use_of(description *d, int i, const case_block **line)
-{
-    term_list *l = i < d->n_use + d->law.n ? &d->law : &d->shown;
-
-    if (i < d->n_use) {
-        *line = d->use_block[i];
-        return &d->use[i];
-    }
-    i -= d->n_use + (l == &d->shown ? d->law.n : 0);
-    *line = l->block[i];
-    return &l->use[i];
-}
-
 /* Inside of bodies a publisher there comes before one in the fluid, and serves no other points. */
 static const term_use *publisher(const description *d, const char *property, int where)
 {
@@ -108,7 +95,7 @@ static void check_taken(description *d, registry *r)
             int taken = 0;
 
             for (int k = 0; k < count(d); k++) {
-                const term_use *u = use_of(d, k, &line);
+                const term_use *u = describe_use(d, k, &line);
 
                 taken |= term_takes(u->term, property) && publisher(d, property, u->where) == &d->law.use[i];
             }
@@ -129,7 +116,7 @@ static int is_number(description *d, const char *key)
     int found = 0;
 
     for (int i = 0; i < count(d); i++) {
-        const term_use *u = use_of(d, i, &line);
+        const term_use *u = describe_use(d, i, &line);
         const pf_param *q = describe_param(u, key);
 
         found |= q && (q->flags & PF_SHARED) && !term_takes(u->term, key);
@@ -249,7 +236,7 @@ void describe_properties(description *d, registry *r)
     if (!d->incomplete)
         check_rivals(d);
     for (int i = 0; i < count(d); i++) {
-        term_use *u = use_of(d, i, &line);
+        term_use *u = describe_use(d, i, &line);
 
         if (u->inside && term_kind(u->term) == TERM_PUBLISHES)
             case_wrong(d->c, line, "inside", "%s publishes a property, which is everywhere: take inside out",
